@@ -1,0 +1,466 @@
+// pellucid.h - the whole public interface of libpellucid.
+//
+// Pellucid ray casts up to 32 volumes at once on any OpenCL device. The order of things:
+//
+//     struct pel_scene *scene = pel_scene_load("head.json", NULL, 0);
+//     struct pel_renderer *renderer = pel_renderer_create(NULL);
+//     struct pel_image *image = pel_renderer_render(renderer, scene, NULL, NULL);
+//     pel_image_save(image, "head.png", NULL);
+//
+// Rules that hold everywhere:
+// - World space is right-handed, in millimetres, RAS+ (x to the patient's right, y anterior, z
+//   superior), as NIfTI has it. Voxel (i,j,k) is centred at index (i,j,k).
+// - Matrices are row-major `m[row][column]` and act on column vectors: p_world = m * p_voxel.
+// - A function that can fail returns false or NULL. pel_error_code() and pel_error_message() then
+//   tell this thread why, in one sentence without full stop. The library never prints, exits or
+//   aborts.
+// - `create`, `load`, `generate` and `copy` return an object the caller owns and gives back to the
+//   matching `destroy`. Every destroy function accepts NULL.
+// - Options are structs passed by pointer. A member that is zero takes its default, and NULL takes
+//   all of them.
+// - An object may be used by one thread at a time; different objects by different threads.
+#ifndef PELLUCID_H
+#define PELLUCID_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define PEL_API __attribute__((visibility("default")))
+#define PEL_PRINTF(text, first) __attribute__((format(printf, text, first)))
+#else
+#define PEL_API
+#define PEL_PRINTF(text, first)
+#endif
+
+#define PEL_VOLUME_MAX 32
+
+// ---- Errors ------------------------------------------------------------------------------------
+
+// What kind of failure it was. The numbers double as exit statuses of the command line.
+enum pel_error {
+    PEL_OK = 0,
+    PEL_ERROR_ARGUMENT = 2,    // the caller or the command line asked for something impossible
+    PEL_ERROR_MEMORY = 3,      // host memory ran out, or a size is beyond what can be addressed
+    PEL_ERROR_FILE = 4,        // a file cannot be opened, read, written or renamed
+    PEL_ERROR_FORMAT = 5,      // a file's content is not what its format demands
+    PEL_ERROR_DEVICE = 6,      // no device, a device that failed, or one that is too small
+    PEL_ERROR_BUILD = 7,       // a kernel did not compile
+    PEL_ERROR_UNSUPPORTED = 8, // valid, but more than this build or device can do
+};
+
+// The code and sentence of this thread's last failure; PEL_OK and "" if there was none. The
+// sentence stays valid until the thread's next failure.
+PEL_API enum pel_error pel_error_code(void);
+PEL_API const char *pel_error_message(void);
+
+// Receives what the library has to say without failing: a value that was clamped, a frame that was
+// assumed. `message` is one sentence; `user` is what was registered.
+typedef void (*pel_warning_callback)(const char *message, void *user);
+
+// Registers who receives warnings, for the whole process; NULL (the default) drops them. Call it
+// before other threads use the library.
+PEL_API void pel_on_warning(pel_warning_callback callback, void *user);
+
+// The library's version, "major.minor.patch".
+PEL_API const char *pel_version(void);
+
+// ---- Geometry ----------------------------------------------------------------------------------
+
+// An affine transform: row-major, column vectors, last row 0 0 0 1.
+struct pel_matrix {
+    double m[4][4];
+};
+
+// ---- Volumes -----------------------------------------------------------------------------------
+
+enum pel_voxel_type {
+    PEL_VOXEL_U8,
+    PEL_VOXEL_I8,
+    PEL_VOXEL_U16,
+    PEL_VOXEL_I16,
+    PEL_VOXEL_F32,
+    PEL_VOXEL_RGB8,  // three bytes a voxel
+    PEL_VOXEL_RGBA8, // four bytes a voxel, straight alpha
+};
+
+// A regular grid of voxels with its place in the world. Read its members freely; change them only
+// before the volume is first rendered.
+struct pel_volume {
+    char *name;               // short name for messages: the file's last path component
+    int dims[3];              // voxels along i, j, k; each at least 1
+    enum pel_voxel_type type; //
+    struct pel_matrix
+        world_from_voxel;    // voxel index -> RAS millimetres; may be oblique or mirrored
+    double slope, intercept; // value in the file's own unit = slope * raw + intercept
+    char unit[16];           // of the values, such as "HU"; "" when unknown
+    char space[64];          // where the placement came from, such as "sform (scanner)"
+    bool labels;             // values are labels: interpolating them makes no sense
+    void *voxels;            // owned; i fastest, then j, then k; no padding. In PEL_VOXEL_F32
+                             // an absent voxel (NaN or Inf in the file) is NaN
+};
+
+// How to read a file. Zero-initialise for the defaults.
+struct pel_load_options {
+    // Which part of a file with more than three dimensions to take, counted from 0.
+    int time, channel;
+    // Multi-channel TIFF pages are taken as RGB(A) unless this is set: then `channel` picks one.
+    bool split_channels;
+    // For headerless files (.raw, .bin, .img without header); `raw.dims[0] > 0` says they are given
+    // and overrules any sidecar.
+    struct {
+        int dims[3];
+        enum pel_voxel_type type;
+        double spacing[3]; // millimetres; 0 = 1
+        double origin[3];  // RAS millimetres of the centre of voxel (0,0,0)
+        size_t offset;     // bytes to skip at the start of the file
+        bool big_endian;   //
+    } raw;
+};
+
+// Reads a volume. The format is told by content first and by name second: NRRD/NHDR, NIfTI-1/2
+// (.nii .nii.gz .hdr/.img), MetaImage (.mhd .mha), TIFF (a stack in one file, a folder of slices,
+// or a glob pattern in natural order; OME-TIFF), PVM, DICOM folders through the program dcm2niix
+// when it is installed, and raw files with a JSON sidecar `NAME.json` or `options->raw`. Types that
+// are not pel_voxel_types are converted, with a warning that says what was lost.
+// Returns NULL on failure (FILE, FORMAT, MEMORY, UNSUPPORTED).
+PEL_API struct pel_volume *pel_volume_load(const char *path,
+                                           const struct pel_load_options *options);
+
+// Makes a volume of undefined voxels: 1 mm spacing, voxel (0,0,0) at the world's origin, slope 1.
+PEL_API struct pel_volume *pel_volume_create(const char *name, const int dims[3],
+                                             enum pel_voxel_type type);
+PEL_API void pel_volume_destroy(struct pel_volume *volume);
+
+// Bytes of one voxel (1 to 4), number of voxels, and bytes of all voxels.
+PEL_API size_t pel_voxel_bytes(enum pel_voxel_type type);
+PEL_API size_t pel_volume_voxel_count(const struct pel_volume *volume);
+PEL_API size_t pel_volume_bytes(const struct pel_volume *volume);
+
+// "uint8", "int8", "uint16", "int16", "float32", "rgb8", "rgba8", and back; false for other names.
+PEL_API const char *pel_voxel_type_name(enum pel_voxel_type type);
+PEL_API bool pel_voxel_type_from_name(const char *name, enum pel_voxel_type *type);
+
+// Distance between neighbouring voxel centres along i, j, k, in millimetres.
+PEL_API void pel_volume_spacing(const struct pel_volume *volume, double spacing_mm[3]);
+
+// The value of voxel (i,j,k) in the file's own unit; NaN where absent. For colour volumes the alpha
+// (RGBA) or the luminance (RGB, Rec. 709 weights), in 0..255.
+PEL_API double pel_volume_value(const struct pel_volume *volume, int i, int j, int k);
+
+#define PEL_HISTOGRAM_BINS 256
+
+// What the values of a volume are like, absent voxels left out. In the file's own unit.
+struct pel_statistics {
+    double min, max, mean, deviation;
+    size_t count, absent_count;
+    uint64_t histogram[PEL_HISTOGRAM_BINS]; // equal bins over [min, max]
+    double percentiles[101];                // percentiles[p]: p percent of the values are <= it
+};
+
+// Goes over all voxels once or twice. A volume without any present voxel has min = max = 0.
+PEL_API void pel_volume_measure(const struct pel_volume *volume, struct pel_statistics *statistics);
+
+// New volumes from old; the source stays as it is. Values keep their meaning (slope, unit) and
+// every voxel keeps its place in the world.
+// - crop: voxels first[c] .. first[c] + dims[c] - 1
+// - resample: trilinear, to `dims` voxels over the same cell extent
+// - downsample: mean over blocks of factor^3 voxels (nearest for labels)
+// - convert: to another type; values that do not fit are clamped, with a warning that counts them.
+//   From a float type to an integer one slope and intercept are chosen to use the whole range.
+PEL_API struct pel_volume *pel_volume_crop(const struct pel_volume *source, const int first[3],
+                                           const int dims[3]);
+PEL_API struct pel_volume *pel_volume_resample(const struct pel_volume *source, const int dims[3]);
+PEL_API struct pel_volume *pel_volume_downsample(const struct pel_volume *source, int factor);
+PEL_API struct pel_volume *pel_volume_convert(const struct pel_volume *source,
+                                              enum pel_voxel_type type);
+
+// Writes a volume, as the extension says: .nrrd .nhdr .nii .nii.gz .tif/.tiff .mhd .mha
+// .raw (+ sidecar NAME.raw.json). Written to a temporary beside `path` and renamed at the end.
+PEL_API bool pel_volume_save(const struct pel_volume *volume, const char *path);
+
+// A synthetic volume. `kind` is one of pel_generator_names.
+struct pel_generate_options {
+    int size;                 // voxels along the longest side; 0 = 64
+    double spacing_mm;        // 0 = as the kind likes it, so that the object has a natural size
+    enum pel_voxel_type type; // U8 (the default), U16 or F32
+    bool second;              // of a pair ("head-pair"): the moving image instead of the fixed one
+};
+
+// Kinds: "sphere" (signed distance field), "box", "shells", "c60" (electron density of a
+// buckyball from its 60 atom positions, after Romero 2009), "hydrogen" (an orbital),
+// "marschner-lobb" (Marschner & Lobb 1994), "shepp-logan" (the 3-D head), "head-ct" and "head-mri"
+// (one synthetic head, the MRI displaced by a known rigid transform). The list ends with NULL.
+PEL_API const char *const *pel_generator_names(void);
+PEL_API struct pel_volume *pel_volume_generate(const char *kind,
+                                               const struct pel_generate_options *options);
+
+// ---- Transfer functions ------------------------------------------------------------------------
+
+// What the `value` of a control point counts.
+enum pel_value_scale {
+    PEL_VALUES_ABSOLUTE,   // the file's own unit
+    PEL_VALUES_RELATIVE,   // 0..1 from the least to the greatest value of the volume
+    PEL_VALUES_PERCENTILE, // 0..100, percentiles of the volume's values
+};
+
+struct pel_colour_point {
+    double value, rgb[3]; // straight, 0..1
+};
+
+struct pel_opacity_point {
+    double value, opacity; // 0..1 per `opacity_unit_mm`
+};
+
+// Maps a value to colour and opacity: piecewise linear between control points in ascending order
+// of value, and constant beyond the outer ones. Two points of one value make a step.
+struct pel_transfer {
+    struct pel_colour_point *colours;    // owned
+    struct pel_opacity_point *opacities; // owned
+    int colour_count, opacity_count;     // each at least 1
+    enum pel_value_scale scale;          //
+    double opacity_unit_mm;              // opacity is reached over this length; > 0
+    bool nearest;      // the table is read at its nearest entry, not between entries
+    int table_entries; // entries of the table; 0 = 256 for 8-bit data, else 4096
+};
+
+// Ready-made transfer functions by name; the list ends with NULL. "grey", "hot", "viridis",
+// "rainbow" (the thesis's), "ct-bone", "ct-soft-tissue", "mri", "green", "magenta", ...
+PEL_API const char *const *pel_transfer_presets(void);
+PEL_API struct pel_transfer *pel_transfer_preset(const char *name);
+
+// Reads a transfer function: Pellucid's own JSON, or ParaView's colour-map JSON.
+PEL_API struct pel_transfer *pel_transfer_load(const char *path);
+PEL_API struct pel_transfer *pel_transfer_copy(const struct pel_transfer *transfer);
+PEL_API void pel_transfer_destroy(struct pel_transfer *transfer);
+
+// Turns relative and percentile values into absolute ones, in place.
+PEL_API void pel_transfer_resolve(struct pel_transfer *transfer,
+                                  const struct pel_statistics *statistics);
+
+// Straight colour and opacity (per opacity unit) at an absolute value. The function must be
+// resolved.
+PEL_API void pel_transfer_evaluate(const struct pel_transfer *transfer, double value,
+                                   double rgba[4]);
+
+// ---- Cameras -----------------------------------------------------------------------------------
+
+// A pin-hole or orthographic camera in world millimetres.
+struct pel_camera {
+    double eye[3], target[3], up[3];
+    double fov_deg;    // vertical field of view, 0 < fov < 180; ignored when orthographic
+    double height_mm;  // of the view, when orthographic
+    bool orthographic; //
+    double shift[2];   // off-axis frustum: moves the picture's window right and up, in pictures'
+                       // heights; 0 for an ordinary camera
+};
+
+// Axis-aligned bounds in world millimetres.
+struct pel_bounds {
+    double low[3], high[3];
+};
+
+// Looks at the bounds from a named side so that all of them are in the picture. `view` is one of
+// "anterior", "posterior", "left", "right", "superior", "inferior" (the radiologist's names: seen
+// *from* there) or "oblique". `aspect` is width / height. ARGUMENT for another name.
+PEL_API bool pel_camera_fit(struct pel_camera *camera, const char *view,
+                            const struct pel_bounds *bounds, double aspect);
+
+// ---- Rigid transforms --------------------------------------------------------------------------
+
+// Reads a rigid transform from world to world (RAS): an ITK .tfm (text, Euler3D, VersorRigid3D or
+// affine), an FSL FLIRT .mat, or a plain 4x4 of numbers. ITK files map points of the fixed image to
+// the moving one in LPS, so the result is their inverse in RAS: it moves the moving volume onto the
+// fixed. FSL's .mat maps between scaled voxel spaces and needs both volumes (`moving`, `fixed`);
+// ARGUMENT if one is missing. FORMAT if the result is not a rotation and translation.
+PEL_API bool pel_transform_load(struct pel_matrix *world_from_world, const char *path,
+                                const struct pel_volume *moving, const struct pel_volume *fixed);
+
+// Writes one, as the extension says: .tfm (ITK Euler3D), .mat (FSL, needs both volumes), or .txt
+// (4x4).
+PEL_API bool pel_transform_save(const struct pel_matrix *world_from_world, const char *path,
+                                const struct pel_volume *moving, const struct pel_volume *fixed);
+
+// ---- Scenes ------------------------------------------------------------------------------------
+
+// Where a volume's box ends: half a voxel beyond the outer voxel centres, with clamp-to-edge
+// interpolation there, or at the centres as VTK and OpenVKL have it.
+enum pel_extent { PEL_EXTENT_CELL, PEL_EXTENT_POINT };
+
+enum pel_filter { PEL_FILTER_LINEAR, PEL_FILTER_NEAREST };
+
+// How overlapping volumes share one sample. See docs/mixing.md for the formulae.
+enum pel_mixing {
+    PEL_MIX_SUM,  // extinctions add, colour is the extinction-weighted mean; order does not matter
+    PEL_MIX_OVER, // blended front to back at each sample in the order of the list
+};
+
+// Where the samples of a ray are counted from.
+enum pel_sample_origin {
+    PEL_ORIGIN_VOLUMES, // the nearest entry into any visible volume's own box
+    PEL_ORIGIN_BOUNDS,  // the entry into the world-axis-aligned bounds of all visible volumes, as
+                        // VTK
+};
+
+// One volume as it stands in a scene. Several instances may show one volume.
+struct pel_instance {
+    char name[64];
+    int volume;                  // index into the scene's volumes
+    bool hidden;                 //
+    struct pel_matrix transform; // rigid, world from world: applied after the file's own placement
+    double density;              // multiplies the extinction; >= 0
+    enum pel_extent extent;      //
+    enum pel_filter filter;      //
+    struct pel_transfer *transfer; // owned, resolved
+};
+
+struct pel_render_settings {
+    int width, height;      // pixels
+    enum pel_mixing mixing; //
+    double step;            // in voxels of the finest visible volume; > 0
+    double phase;           // of the first sample, in steps; 0..1
+    double termination;     // a ray ends once its opacity exceeds this; 1 = never
+    enum pel_sample_origin origin;
+};
+
+struct pel_output_settings {
+    char path[1024];    // "" when the scene names none
+    int depth;          // of PNG: 8 or 16
+    bool premultiplied; // PNG alpha as computed instead of straight
+};
+
+// A scene in memory. Instances are drawn in any order but listed in the user's; `over` follows it.
+struct pel_scene {
+    struct pel_camera camera;
+    double background[4];                             // straight RGBA, 0..1
+    int volume_count;                                 // distinct volumes in memory
+    struct pel_volume *volumes[PEL_VOLUME_MAX];       // owned
+    struct pel_statistics statistics[PEL_VOLUME_MAX]; // of each volume
+    int instance_count;
+    struct pel_instance instances[PEL_VOLUME_MAX];
+    struct pel_render_settings render;
+    struct pel_output_settings output;
+    char *text; // owned; the scene as JSON after all overrides, as it goes into the picture
+};
+
+// Reads a scene file, or one or more volume files in place of a scene (then: a percentile window,
+// a fitted camera, and a colour each). `overrides` are "key=value" strings such as
+// "camera.fov=40" or "volumes.0.density=0.2", applied to the JSON before it is checked; values are
+// JSON, or plain words. Paths in a file are relative to it, others to the working directory. Errors
+// read FILE:LINE:COLUMN: KEY: what is wrong, with the nearest known key for an unknown one.
+PEL_API struct pel_scene *pel_scene_load(const char *path, const char *const *overrides,
+                                         int override_count);
+PEL_API struct pel_scene *pel_scene_from_files(const char *const *paths, int path_count,
+                                               const char *const *overrides, int override_count);
+PEL_API void pel_scene_destroy(struct pel_scene *scene);
+
+// The world bounds of one instance's box, and of all visible instances (false if there is none).
+PEL_API void pel_instance_bounds(const struct pel_scene *scene, int instance,
+                                 struct pel_bounds *bounds);
+PEL_API bool pel_scene_bounds(const struct pel_scene *scene, struct pel_bounds *bounds);
+
+// ---- Devices -----------------------------------------------------------------------------------
+
+enum pel_reader { PEL_READER_AUTO, PEL_READER_BUFFER, PEL_READER_IMAGE };
+
+#define PEL_DEVICE_MAX 32
+
+struct pel_device_info {
+    char name[128], vendor[128], platform[128], driver[128], version[128];
+    bool gpu, cpu; // neither: an accelerator
+    bool usable;   // false: `problem` says why Pellucid cannot use it
+    char problem[160];
+    int compute_units;
+    uint64_t memory_bytes, max_allocation_bytes, max_constant_bytes, local_bytes;
+    bool images;            // 3-D images exist
+    size_t max_image[3];    // voxels
+    int native_float_width; // lanes of the device's vectors
+    size_t max_work_group;
+    // What Pellucid would choose for it.
+    enum pel_reader reader;
+    int lanes, work_group;
+};
+
+// Finds every device of every platform, in the order `--device N` counts them. A platform that
+// fails is reported as a warning and left out. Returns how many were written (at most
+// PEL_DEVICE_MAX); 0 with an error set (DEVICE) when there is no platform at all.
+PEL_API int pel_device_list(struct pel_device_info *devices);
+
+// ---- Rendering ---------------------------------------------------------------------------------
+
+// `device` is an index into pel_device_list ("0"), a type ("gpu", "cpu") or part of a name; NULL
+// takes $PELLUCID_DEVICE, else the first usable GPU, else the first usable device.
+struct pel_renderer_options {
+    const char *device;
+    enum pel_reader reader;
+    int lanes;                     // rays per work-item: 1, 4, 8 or 16; 0 = as the device likes it
+    int work_group;                // work-items per work-group; 0 = as the device likes it
+    uint64_t max_allocation_bytes; // lowers the device's own limit (for tests); 0 = the device's
+};
+
+struct pel_image {
+    int width, height;
+    float *rgba; // owned; premultiplied; rows from the top
+};
+
+// What one frame took.
+struct pel_render_statistics {
+    char device[128], driver[128];
+    enum pel_reader reader;
+    int lanes, work_group;
+    uint64_t samples;        // taken inside volumes, all rays together
+    uint64_t rays;           //
+    uint64_t device_bytes;   // allocated on the device at the end of the frame
+    uint64_t uploaded_bytes; // sent to the device for this frame
+    double prepare_ms, build_ms, upload_ms, render_ms, download_ms;
+};
+
+// Called between batches of tiles with the finished share, 0..1. Return false to abandon the frame.
+typedef bool (*pel_progress_callback)(double finished, void *user);
+
+struct pel_render_options {
+    pel_progress_callback progress;
+    void *user;
+};
+
+// Opens a device. Fails (DEVICE, ARGUMENT) with a sentence that lists what was found.
+PEL_API struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *options);
+PEL_API void pel_renderer_destroy(struct pel_renderer *renderer);
+
+// Renders one picture of the scene, background included. Voxels, tables and kernels stay on the
+// device for the next call, which uploads only what changed. Refuses (DEVICE, with needed and
+// available bytes) before anything is allocated when the scene fits nowhere. `statistics` may be
+// NULL.
+PEL_API struct pel_image *pel_renderer_render(struct pel_renderer *renderer,
+                                              const struct pel_scene *scene,
+                                              const struct pel_render_options *options,
+                                              struct pel_render_statistics *statistics);
+
+// ---- Images ------------------------------------------------------------------------------------
+
+struct pel_image_options {
+    int depth;          // PNG: 8 (default) or 16 bits
+    bool premultiplied; // write alpha as computed; the default is straight
+    // Text chunks for PNG, `text_count` pairs of keyword and text; may be NULL.
+    const char *const (*texts)[2];
+    int text_count;
+};
+
+PEL_API struct pel_image *pel_image_create(int width, int height);
+PEL_API void pel_image_destroy(struct pel_image *image);
+
+// Writes .png, .tif/.tiff (32-bit float RGBA) or .ppm, through a temporary that is renamed at the
+// end. The path "-" writes PPM to the standard output.
+PEL_API bool pel_image_save(const struct pel_image *image, const char *path,
+                            const struct pel_image_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

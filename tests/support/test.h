@@ -1,0 +1,30 @@
+// test.h - what every test file includes: cmocka, the library, and where the optional data lies.
+#ifndef PEL_TEST_H
+#define PEL_TEST_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "pellucid.h"
+
+// The path of a file below $PELLUCID_TEST_DATA (default: ../shared beside the repository). The text
+// is overwritten by the eighth call after this one.
+const char *test_data_path(const char *relative);
+
+// Ends the whole program with status 77 and the reason when `relative` does not exist there.
+void test_need_data(const char *relative);
+
+// A path for a file this test may write, in a folder of this process that is removed at its end.
+const char *test_temporary_path(const char *leaf);
+
+// A reproducible random number in [0, 1); the state starts at any value.
+double test_random(uint64_t *state);
+
+#endif
