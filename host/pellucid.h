@@ -460,6 +460,10 @@ PEL_API void pel_image_destroy(struct pel_image *image);
 PEL_API bool pel_image_save(const struct pel_image *image, const char *path,
                             const struct pel_image_options *options);
 
+// Tells before a long computation whether a picture could be saved there: ARGUMENT when the
+// extension is none of those above, FILE when the folder does not exist or cannot be written.
+PEL_API bool pel_image_check_path(const char *path);
+
 #ifdef __cplusplus
 }
 #endif
