@@ -100,6 +100,7 @@ struct pel_volume {
     double slope, intercept; // value in the file's own unit = slope * raw + intercept
     char unit[16];           // of the values, such as "HU"; "" when unknown
     char space[64];          // where the placement came from, such as "sform (scanner)"
+    uint64_t serial;         // set by pel_volume_create and never reused: tells volumes apart
     bool labels;             // values are labels: interpolating them makes no sense
     void *voxels;            // owned; i fastest, then j, then k; no padding. In PEL_VOXEL_F32
                              // an absent voxel (NaN or Inf in the file) is NaN
