@@ -21,11 +21,12 @@ const struct pel_range pel_unit_number = {.high = 1};
 
 // ---- Places ------------------------------------------------------------------------------------
 
-void pel_node_key(const struct pel_scene_node *node, size_t bytes, char key[]) {
+// The dotted path of a node: "volumes.0.name".
+static void write_key(const struct pel_scene_node *node, size_t bytes, char key[]) {
     key[0] = '\0';
     if (!node->parent)
         return;
-    pel_node_key(node->parent, bytes, key);
+    write_key(node->parent, bytes, key);
     size_t used = strlen(key);
     const char *dot = used ? "." : "";
     if (node->key)
@@ -45,14 +46,16 @@ static const char *find_override(const struct pel_scene_document *document, cons
 
 static const char *override_of(const struct pel_scene_node *node) {
     char key[KEY_BYTES];
-    pel_node_key(node, sizeof key, key);
+    write_key(node, sizeof key, key);
     return find_override(node->document, key, pel_scene_override_covers);
 }
 
-void pel_node_place(const struct pel_scene_node *node, size_t bytes, char place[]) {
+// Where a node is: "two.json:7:5: volumes.0.name", "--set volumes.0.name=3", or "" for a scene made
+// in memory. True when it is in an override.
+static bool write_place(const struct pel_scene_node *node, size_t bytes, char place[]) {
     const struct pel_scene_document *document = node->document;
     char key[KEY_BYTES];
-    pel_node_key(node, sizeof key, key);
+    write_key(node, sizeof key, key);
     int line = 1, column = 1;
     const char *override = find_override(document, key, pel_scene_override_covers);
     bool written = document->text && pel_text_locate(document->text, key, &line, &column);
@@ -67,11 +70,12 @@ void pel_node_place(const struct pel_scene_node *node, size_t bytes, char place[
     } else {
         place[0] = '\0';
     }
+    return override != NULL;
 }
 
 bool pel_node_fail_in(const struct pel_scene_node *node) {
     char place[PLACE_BYTES];
-    pel_node_place(node, sizeof place, place);
+    write_place(node, sizeof place, place);
     return *place ? pel_fail_in("%s", place) : false;
 }
 
@@ -81,8 +85,11 @@ bool pel_node_fail(const struct pel_scene_node *node, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    pel_fail(override_of(node) ? PEL_ERROR_ARGUMENT : PEL_ERROR_FORMAT, "%s", message);
-    return pel_node_fail_in(node);
+    char place[PLACE_BYTES];
+    bool override = write_place(node, sizeof place, place);
+    pel_fail(override ? PEL_ERROR_ARGUMENT : PEL_ERROR_FORMAT, "%s%s%s", place, *place ? ": " : "",
+             message);
+    return false;
 }
 
 // ---- Values in sentences -----------------------------------------------------------------------
@@ -187,7 +194,7 @@ bool pel_node_check_object(const struct pel_scene_node *node, const char *const 
         pel_node_member(&member, node, key);
         const char *nearest = pel_text_nearest(key, keys);
         if (nearest)
-            return pel_node_fail(&member, "unknown key; did you mean '%s'?", nearest);
+            return pel_node_fail(&member, "unknown key; did you mean '%s'", nearest);
         return pel_node_fail(&member, "unknown key");
     }
     const char *comment;

@@ -43,11 +43,6 @@ bool pel_node_fail(const struct pel_scene_node *node, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 bool pel_node_fail_in(const struct pel_scene_node *node);
 
-// Where a node is: "two.json:7:5: volumes.0.name", "--set volumes.0.name=3", or "" for a scene made
-// in memory. `pel_node_key` is the dotted key path alone.
-void pel_node_place(const struct pel_scene_node *node, size_t bytes, char place[]);
-void pel_node_key(const struct pel_scene_node *node, size_t bytes, char key[]);
-
 // The member of an object (false when there is none), and an element of an array.
 bool pel_node_member(struct pel_scene_node *member, const struct pel_scene_node *object,
                      const char *key);

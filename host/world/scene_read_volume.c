@@ -48,7 +48,7 @@ bool pel_scene_find_instance(const struct pel_scene *scene, const struct pel_sce
         return pel_node_fail(node, "%d volumes are named '%.64s'", found, name);
     const char *nearest = pel_text_nearest(name, names);
     if (nearest)
-        return pel_node_fail(node, "no volume is named '%.64s'; did you mean '%s'?", name, nearest);
+        return pel_node_fail(node, "no volume is named '%.64s'; did you mean '%s'", name, nearest);
     return pel_node_fail(node, "no volume is named '%.64s'", name);
 }
 
