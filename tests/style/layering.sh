@@ -23,6 +23,7 @@ declare -A library=(
     ["CL/"]='host/device/'
     ["png\.h"]='host/output/png\.c'
     ["tiff[a-z]*\.h"]='host/output/tiff_image\.c|host/volume/tiff'
+    ["expat\.h"]='host/volume/tiff'
     ["nifti"]='host/volume/nifti'
     ["teem/"]='host/volume/nrrd'
     ["jansson\.h"]='host/base/|host/transfer/|host/world/scene|host/volume/(raw|sidecar)|host/cli/'
