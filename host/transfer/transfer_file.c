@@ -42,9 +42,9 @@ bool pel_transfer_read_number(const json_t *json, double *number) {
     return true;
 }
 
-static const char *const known_keys[] = {"preset",        "range",   "colours", "colors",
-                                         "opacities",     "points",  "scale",   "opacity_unit",
-                                         "interpolation", "entries", NULL};
+static const char *const known_keys[] = {"comment",      "preset",        "range",   "colours",
+                                         "colors",       "opacities",     "points",  "scale",
+                                         "opacity_unit", "interpolation", "entries", NULL};
 
 static bool check_keys(struct pel_transfer_reader *reader, const json_t *object) {
     // jansson's iterators take a plain pointer but only read.

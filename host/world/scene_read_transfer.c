@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/error.h"
+#include "transfer/transfer_file.h"
 
 // A preset's name has neither dot nor slash, a file's always has one.
 static bool read_named(struct pel_transfer **transfer, const struct pel_scene_node *node) {
@@ -26,5 +26,10 @@ bool pel_scene_read_transfer(struct pel_transfer **transfer, const struct pel_sc
         return true;
     if (json_is_string(node.value))
         return read_named(transfer, &node);
-    return pel_node_fail(&node, "not yet");
+    const char *bad_key;
+    *transfer = pel_transfer_parse(node.value, &bad_key);
+    if (*transfer)
+        return true;
+    struct pel_scene_node bad = {.document = node.document, .parent = &node, .key = bad_key};
+    return pel_node_fail_in(*bad_key ? &bad : &node);
 }
