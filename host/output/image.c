@@ -4,8 +4,10 @@
 // without padding.
 #include "output/image.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -44,6 +46,37 @@ void pel_image_destroy(struct pel_image *image) {
     free(image);
 }
 
+enum image_format { FORMAT_UNKNOWN, FORMAT_PNG, FORMAT_TIFF, FORMAT_PPM };
+
+static enum image_format format_of(const char *path) {
+    if (strcmp(path, "-") == 0 || pel_path_has_extension(path, ".ppm"))
+        return FORMAT_PPM;
+    if (pel_path_has_extension(path, ".png"))
+        return FORMAT_PNG;
+    if (pel_path_has_extension(path, ".tif") || pel_path_has_extension(path, ".tiff"))
+        return FORMAT_TIFF;
+    pel_fail(PEL_ERROR_ARGUMENT,
+             "%s: a picture's name ends in .png, .tif, .tiff or .ppm, or is - for PPM on the "
+             "standard output",
+             path);
+    return FORMAT_UNKNOWN;
+}
+
+bool pel_image_check_path(const char *path) {
+    if (format_of(path) == FORMAT_UNKNOWN)
+        return false;
+    if (strcmp(path, "-") == 0)
+        return true;
+    char *folder = pel_path_beside(path, ".");
+    if (!folder)
+        return false;
+    bool good = access(folder, W_OK | X_OK) == 0;
+    if (!good)
+        pel_fail(PEL_ERROR_FILE, "%s: cannot write: %s", path, strerror(errno));
+    free(folder);
+    return good;
+}
+
 bool pel_image_save(const struct pel_image *image, const char *path,
                     const struct pel_image_options *options) {
     struct pel_image_options chosen = options ? *options : (struct pel_image_options){0};
@@ -51,14 +84,14 @@ bool pel_image_save(const struct pel_image *image, const char *path,
         chosen.depth = 8;
     if (chosen.depth != 8 && chosen.depth != 16)
         return pel_fail(PEL_ERROR_ARGUMENT, "a depth of %d bits: PNG has 8 or 16", chosen.depth);
-    if (strcmp(path, "-") == 0 || pel_path_has_extension(path, ".ppm"))
-        return pel_ppm_save(image, path);
-    if (pel_path_has_extension(path, ".png"))
+    switch (format_of(path)) {
+    case FORMAT_PNG:
         return pel_png_save(image, path, &chosen);
-    if (pel_path_has_extension(path, ".tif") || pel_path_has_extension(path, ".tiff"))
+    case FORMAT_TIFF:
         return pel_tiff_image_save(image, path);
-    return pel_fail(PEL_ERROR_ARGUMENT,
-                    "%s: a picture's name ends in .png, .tif, .tiff or .ppm, or is - for PPM on "
-                    "the standard output",
-                    path);
+    case FORMAT_PPM:
+        return pel_ppm_save(image, path);
+    default:
+        return false;
+    }
 }

@@ -39,7 +39,7 @@ static void test_picture(void **state) {
     assert_true(greatest <= fmax(picture->bound_255, picture->exception_255));
     assert_true(beyond <= picture->exception_count);
     reference_destroy(reference);
-    scene_destroy(scene);
+    pel_scene_destroy(scene);
     pel_image_destroy(expected);
 }
 

@@ -41,31 +41,50 @@ static bool range_of_type(enum pel_voxel_type type, double range[2]) {
     }
 }
 
+static bool steps_at(const struct pel_transfer *transfer, double value) {
+    const struct pel_colour_point *colours = transfer->colours;
+    const struct pel_opacity_point *opacities = transfer->opacities;
+    return (transfer->colour_count > 1 && colours[0].value == value && colours[1].value == value) ||
+           (transfer->opacity_count > 1 && opacities[0].value == value &&
+            opacities[1].value == value);
+}
+
+// Wider types: from the first to the last control point, or a little more where values below the
+// first one would not show what is below it.
+static void follow_points(struct reference_table *table, const struct pel_transfer *transfer) {
+    double low = fmin(transfer->colours[0].value, transfer->opacities[0].value);
+    double high = fmax(transfer->colours[transfer->colour_count - 1].value,
+                       transfer->opacities[transfer->opacity_count - 1].value);
+    if (high - low <= 0x1p-20 * fabs(high))
+        low = high - 0x1p-10 * (high != 0 ? fabs(high) : 1);
+    else if (steps_at(transfer, low))
+        low -= (high - low) / (table->count - 2);
+    table->low = low;
+    table->high = high;
+}
+
 void reference_table_init(struct reference_table *table, const struct pel_transfer *transfer,
                           const struct pel_volume *volume) {
     double range[2];
-    if (range_of_type(volume->type, range)) {
+    bool whole_type = range_of_type(volume->type, range);
+    table->count = transfer->table_entries ? transfer->table_entries : whole_type ? 256 : 4096;
+    table->nearest = transfer->nearest;
+    if (whole_type) {
         double first = volume->slope * range[0] + volume->intercept;
         double last = volume->slope * range[1] + volume->intercept;
         table->low = fmin(first, last);
         table->high = fmax(first, last);
-        table->count = 256;
     } else {
-        table->low = fmin(transfer->colours[0].value, transfer->opacities[0].value);
-        table->high = fmax(transfer->colours[transfer->colour_count - 1].value,
-                           transfer->opacities[transfer->opacity_count - 1].value);
-        table->count = 4096;
+        follow_points(table, transfer);
     }
-    if (transfer->table_entries)
-        table->count = transfer->table_entries;
-    table->nearest = transfer->nearest;
 
     table->entries = malloc((size_t)table->count * sizeof *table->entries);
     if (!table->entries)
         abort();
+    double spacing = (table->high - table->low) / (table->count - 1);
+    // A step that falls on an entry should not miss it by rounding of the entry's value.
     for (int j = 0; j < table->count; j++)
-        evaluate(table->entries[j], transfer,
-                 table->low + j * (table->high - table->low) / (table->count - 1));
+        evaluate(table->entries[j], transfer, table->low + (j + 1e-9) * spacing);
 }
 
 void reference_table_finish(struct reference_table *table) {

@@ -34,17 +34,6 @@ struct pel_scene *scene_create(int width, int height) {
     return scene;
 }
 
-void scene_destroy(struct pel_scene *scene) {
-    for (int k = 0; k < scene->instance_count; k++) {
-        free(scene->instances[k].transfer->colours);
-        free(scene->instances[k].transfer->opacities);
-        free(scene->instances[k].transfer);
-    }
-    for (int i = 0; i < scene->volume_count; i++)
-        pel_volume_destroy(scene->volumes[i]);
-    free(scene);
-}
-
 struct pel_instance *scene_add_again(struct pel_scene *scene, int volume,
                                      struct pel_transfer *transfer) {
     struct pel_instance *instance = &scene->instances[scene->instance_count++];
@@ -60,6 +49,7 @@ struct pel_instance *scene_add_again(struct pel_scene *scene, int volume,
 
 struct pel_instance *scene_add(struct pel_scene *scene, struct pel_volume *volume,
                                struct pel_transfer *transfer) {
+    pel_volume_measure(volume, &scene->statistics[scene->volume_count]);
     scene->volumes[scene->volume_count++] = volume;
     return scene_add_again(scene, scene->volume_count - 1, transfer);
 }

@@ -8,8 +8,8 @@
 
 // An empty scene: sum, step 1/2, phase 1/2, no termination, counted from the volumes, a clear
 // background, and a camera at (0, 0, 100) looking down at the origin, y up, that sees 40 mm there.
+// Give it back to pel_scene_destroy.
 struct pel_scene *scene_create(int width, int height);
-void scene_destroy(struct pel_scene *scene);
 
 // Adds an instance of a new or of an old volume. Each takes its transfer function over, the first
 // one the volume too. The instance (cell, linear, density 1) may be changed afterwards; the pointer

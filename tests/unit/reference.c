@@ -185,7 +185,7 @@ static void test_table_of_bytes(void **state) {
     pel_volume_destroy(volume);
     struct pel_scene *owner = one_ray(1);
     scene_add(owner, scene_volume_constant((int[]){1, 1, 1}, PEL_VOXEL_U8, 0), transfer);
-    scene_destroy(owner);
+    pel_scene_destroy(owner);
 }
 
 static void test_table_of_wide_values(void **state) {
@@ -215,7 +215,7 @@ static void test_table_of_wide_values(void **state) {
     reference_table_look_up(rgba, &table, 250);
     CHECK_NEAR(rgba[0], 0.6, 1e-12);
     reference_table_finish(&table);
-    scene_destroy(scene);
+    pel_scene_destroy(scene);
 }
 
 // ---- Light -------------------------------------------------------------------------------------
@@ -260,7 +260,7 @@ static void test_homogeneous_box(void **state) {
         }
     }
     assert_in_range(met, 60, width * height - 60);
-    scene_destroy(scene);
+    pel_scene_destroy(scene);
 }
 
 static double distance_field(const double p[3], const void *user) {
@@ -297,7 +297,7 @@ static void test_homogeneous_sphere(void **state) {
         }
     }
     assert_true(met > 40);
-    scene_destroy(scene);
+    pel_scene_destroy(scene);
 }
 
 // Opacity k z / L over the length L: the integral of -ln(1 - k z / L) is L / k ((1-k) ln(1-k) + k).
@@ -315,7 +315,7 @@ static void test_ramp_of_opacity(void **state) {
         double rgba[4];
         cast(scene, rgba);
         errors[n] = -log(1 - rgba[3]) - depth;
-        scene_destroy(scene);
+        pel_scene_destroy(scene);
     }
     // The midpoint rule: of second order, and below the truth as the extinction is convex, by
     // step^2 / 24 times the difference of the slopes at the ends.
@@ -343,7 +343,7 @@ static void test_ramp_of_colour(void **state) {
         cast(scene, rgba);
         CHECK_NEAR(rgba[3], 1 - past, 1e-12);
         errors[n] = rgba[0] - truth;
-        scene_destroy(scene);
+        pel_scene_destroy(scene);
     }
     assert_true(fabs(errors[2]) > 1e-8);
     CHECK_NEAR(errors[0] / errors[1], 4, 0.1);
@@ -362,7 +362,7 @@ static void two_boxes(enum pel_mixing mixing, double rgba[4]) {
             ->density = k == 0 ? 1 : 2;
     }
     cast(scene, rgba);
-    scene_destroy(scene);
+    pel_scene_destroy(scene);
 }
 
 static void test_two_boxes(void **state) {
@@ -411,7 +411,7 @@ static void test_background_and_units(void **state) {
     scene->background[3] = 0;
     cast(scene, rgba);
     CHECK_NEAR(rgba[3], 0.5, 1e-12);
-    scene_destroy(scene);
+    pel_scene_destroy(scene);
 }
 
 static void test_termination(void **state) {
@@ -430,7 +430,7 @@ static void test_termination(void **state) {
     samples = 0;
     reference_ray(scene, 0, 0, rgba, &samples);
     assert_int_equal(samples, 20);
-    scene_destroy(scene);
+    pel_scene_destroy(scene);
 }
 
 int main(void) {

@@ -13,7 +13,7 @@ static const double EXACT = 1e-4;
 static void destroy_all(struct pel_image *a, struct pel_image *b, struct pel_scene *scene) {
     pel_image_destroy(a);
     pel_image_destroy(b);
-    scene_destroy(scene);
+    pel_scene_destroy(scene);
 }
 
 // Random scenes with rough edges taken off: what this file asks of them holds exactly.
@@ -180,7 +180,7 @@ static void test_resampling(void **state) {
         scene->instances[0].extent = PEL_EXTENT_POINT;
         scene->render.step = 0.25 / spacing;
         pictures[n] = reference_render(scene);
-        scene_destroy(scene);
+        pel_scene_destroy(scene);
     }
     assert_pictures_within(pictures[1], pictures[0], EXACT, 0, "resampled");
     destroy_all(pictures[0], pictures[1], scene_create(1, 1));
@@ -206,7 +206,7 @@ static void test_step_converges(void **state) {
     }
     for (int n = 0; n < 4; n++)
         pel_image_destroy(pictures[n]);
-    scene_destroy(scene);
+    pel_scene_destroy(scene);
 }
 
 // A scene in metres instead of millimetres: everything a thousand times as large, opacity too.
@@ -224,7 +224,7 @@ static void test_scale(void **state) {
         scene_add(scene, volume, transfer);
         scene->camera.eye[2] *= scale;
         pictures[n] = reference_render(scene);
-        scene_destroy(scene);
+        pel_scene_destroy(scene);
     }
     assert_pictures_within(pictures[1], pictures[0], EXACT, 0, "scaled");
     destroy_all(pictures[0], pictures[1], scene_create(1, 1));
@@ -259,7 +259,7 @@ static void test_cut_in_two(void **state) {
         struct pel_image *expected = reference_render(one), *actual = reference_render(two);
         assert_pictures_within(actual, expected, EXACT, 0, "cut in two");
         destroy_all(expected, actual, one);
-        scene_destroy(two);
+        pel_scene_destroy(two);
     }
 }
 
