@@ -196,7 +196,8 @@ struct pel_generate_options {
 // Kinds: "sphere" (signed distance field), "box", "shells", "c60" (electron density of a
 // buckyball from its 60 atom positions, after Romero 2009), "hydrogen" (an orbital),
 // "marschner-lobb" (Marschner & Lobb 1994), "shepp-logan" (the 3-D head), "head-ct" and "head-mri"
-// (one synthetic head, the MRI displaced by a known rigid transform). The list ends with NULL.
+// (one synthetic head, the MRI displaced by a known rigid transform), "head-pair" (the CT, or with
+// `second` the MRI). The list ends with NULL.
 PEL_API const char *const *pel_generator_names(void);
 PEL_API struct pel_volume *pel_volume_generate(const char *kind,
                                                const struct pel_generate_options *options);
