@@ -26,12 +26,16 @@ done
 # Through every format and back: place and values stay.
 for extension in nrrd nhdr nii nii.gz mha mhd tif raw; do
     expect 0 '' convert count.bin "count.$extension" "${raw[@]}"
-    [ -s err ] && complain "convert to $extension warns: $(cat err)"
+    # TIFF has neither position nor direction, and Pellucid says so.
+    if [ $extension = tif ]; then
+        grep -q '^pellucid: warning: .*TIFF' err || complain "convert to TIFF does not warn"
+    elif [ -s err ]; then
+        complain "convert to $extension warns: $(cat err)"
+    fi
     expect 0 '' info "count.$extension" --json
     check_json 'x[0]["dims"] == [4, 3, 2] and x[0]["type"] == "uint8"'
     check_json 'max(abs(a - b) for a, b in zip(x[0]["spacing_mm"], [2, 3, 4])) < 1e-5'
     check_json '(x[0]["min"], x[0]["max"], x[0]["mean"]) == (0, 23, 11.5)'
-    # TIFF has no origin of its own.
     [ $extension = tif ] ||
         check_json 'max(abs(a - b) for a, b in zip(x[0]["origin_mm"], [10, 20, 30])) < 1e-5'
 done
@@ -55,10 +59,10 @@ check_json 'x[0]["dims"] == [2, 3, 2] and x[0]["size_mm"] == [8, 9, 8]'
 expect 2 '^pellucid: --resample' convert count.nrrd x.nrrd --resample 0mm
 expect 2 '^pellucid: --resample' convert count.nrrd x.nrrd --resample 4x4
 
-# Blocks of 2 x 2 x 2; the mean of all is the mean of means where the blocks are whole.
+# Blocks of 2 x 2 x 2: the means are 8.5 and 10.5, which floats keep because they come first.
 expect 0 '' convert count.nrrd half.nrrd --crop :,0:2,: --downsample 2 --type float32
 expect 0 '' info half.nrrd --json
-check_json 'x[0]["dims"] == [2, 1, 1] and x[0]["type"] == "float32" and abs(x[0]["mean"] - 9.5) < 1e-6'
+check_json 'x[0]["dims"] == [2, 1, 1] and (x[0]["min"], x[0]["max"]) == (8.5, 10.5)'
 
 # An extension nobody knows, and a folder that is not there.
 expect 2 '^pellucid: .*count\.xyz' convert count.nrrd count.xyz

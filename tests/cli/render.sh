@@ -67,7 +67,7 @@ expect 2 '^pellucid: .*no_such_key' render data/box.nii.gz --set no_such_key=1
 expect 2 '^pellucid: .*step' render data/box.nii.gz --step 0
 
 # A scene says where its picture goes; -o overrules it.
-echo '{"volumes": [{"generate": "box", "size": 12}], "render": {"size": [20, 10]}, "output": {"file": "said.png"}}' >scene.json
+echo '{"volumes": [{"generate": {"kind": "box", "size": 12}}], "render": {"size": [20, 10]}, "output": {"file": "said.png"}}' >scene.json
 expect 0 '' render scene.json
 png said.png '(width, height) == (20, 10)'
 expect 0 '' render scene.json -o other.tif

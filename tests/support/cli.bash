@@ -20,7 +20,8 @@ expect() {
     local got=$?
     [ $got -eq 0 ] && place=out
     [ $got -eq "$status" ] || complain "pellucid $*: status $got, not $status: $(head -3 err)"
-    grep -qE -- "$pattern" $place || complain "pellucid $*: no '$pattern' in: $(head -5 $place)"
+    [ -z "$pattern" ] || grep -qE -- "$pattern" $place ||
+        complain "pellucid $*: no '$pattern' in: $(head -5 $place)"
 }
 
 # check_json PYTHON - checks that the file `out` is JSON for which the Python expression holds; `x` is its value.
