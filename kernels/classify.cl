@@ -34,7 +34,8 @@ INLINE struct entry find_entry(__constant struct part *part, real raw, mask *pre
     *present &= ~absent;
     x = CHOOSE(x, (real)(0.0f), absent);
 #endif
-    x = clamp(x, 0.0f, part->table_last);
+    x = AT_LEAST(x, (real)(0.0f));
+    x = AT_MOST(x, (real)(part->table_last));
 #if TABLE_LINEAR
     if (part->table_nearest)
         x = TO_REAL(TO_INTEGER(x + 0.5f));

@@ -78,6 +78,10 @@ typedef LANES_JOIN(int, LANES) mask;
 #define lanes_as_float8 as_float8
 #define lanes_as_float16 as_float16
 
+// The built-in clamp has to care for NaN; where there is none, a comparison and a choice are one instruction.
+#define AT_LEAST(v, low) CHOOSE((v), (low), MASK((v) < (low)))
+#define AT_MOST(v, high) CHOOSE((v), (high), MASK((v) > (high)))
+
 // ALL_LANES(f): the vector of f(0), f(1) ... STORE_LANES(v, array): the way back, for loops over lanes.
 #if LANES == 1
 #define ALL_LANES(f) f(0)

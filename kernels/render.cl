@@ -32,6 +32,11 @@ INLINE void light_add(struct light *light, real r, real g, real b, real a) {
     light->a += weight;
 }
 
+// With room for one part only, the compiler must see that there is only one, or it keeps the cursor in
+// memory instead of registers.
+#define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
+#define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
+
 // The parts that some lane of the packet crosses, with their cursors.
 struct crossing {
     struct cursor cursors[CAPACITY];
@@ -61,8 +66,9 @@ INLINE void find_crossing(__constant struct world *world, const struct ray *ray,
         const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
         const struct cursor cursor = cursor_begin(world, part, &ray_voxel, &span, t_near);
         if (any_lane(MASK(cursor.first < cursor.end))) {
-            crossing->cursors[crossing->count] = cursor;
-            crossing->parts[crossing->count] = p;
+            const int c = CAPACITY == 1 ? 0 : crossing->count;
+            crossing->cursors[c] = cursor;
+            crossing->parts[c] = p;
             crossing->count++;
         }
     }
@@ -81,7 +87,7 @@ INLINE void begin_span(struct active *active, const struct crossing *crossing, i
                        mask alive) {
     active->count = 0;
     active->until = (integer)(SAMPLE_NEVER);
-    for (int c = 0; c < crossing->count; c++) {
+    for (int c = 0; c < COUNTED(crossing->count); c++) {
         const struct cursor *cursor = &crossing->cursors[c];
         const mask before = MASK(i < cursor->first), inside = ~before & MASK(i < cursor->end);
         const integer change = CHOOSE(cursor->end, cursor->first, before);
@@ -94,8 +100,8 @@ INLINE void begin_span(struct active *active, const struct crossing *crossing, i
 // The next sample, from i on, that may show something; SAMPLE_NEVER at the end.
 INLINE integer leap(const struct active *active, const struct crossing *crossing, integer i) {
     integer next = active->until;
-    for (int a = 0; a < active->count; a++)
-        next = min(next, cursor_leap(&crossing->cursors[active->list[a]], i));
+    for (int a = 0; a < COUNTED(active->count); a++)
+        next = min(next, cursor_leap(&crossing->cursors[LISTED(active->list, a)], i));
     return max(next, i);
 }
 
@@ -105,34 +111,43 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                                 integer *samples) {
     const real zero = (real)(0.0f);
     struct light light = {zero, zero, zero, zero};
-    integer i = (integer)(SAMPLE_NEVER);
-    for (int c = 0; c < crossing->count; c++)
+    // The first sample of each ray, and the one behind its last.
+    integer i = (integer)(SAMPLE_NEVER), last = (integer)(0);
+    for (int c = 0; c < COUNTED(crossing->count); c++) {
         i = min(i, crossing->cursors[c].first);
-    mask alive = MASK(i != SAMPLE_NEVER);
+        last = max(last, crossing->cursors[c].end);
+    }
+    mask alive = MASK(i < last);
     struct active active;
-    active.until = i;
+    active.until = CAPACITY == 1 ? last : i;
 
     while (any_lane(alive)) {
+#if CAPACITY > 1
         if (any_lane(alive & MASK(i >= active.until)))
             begin_span(&active, crossing, i, alive);
-
+#endif
         mask seen = (mask)(0);
 #if STRENGTH_DEPTH
         struct light mixed = {zero, zero, zero, zero};
 #endif
-        for (int a = 0; a < active.count; a++) {
-            const struct cursor *cursor = &crossing->cursors[active.list[a]];
-            __constant struct part *part = &world->parts[crossing->parts[active.list[a]]];
-            mask present = alive & MASK(i >= cursor->first) & MASK(i < cursor->end);
+        for (int a = 0; a < COUNTED(active.count); a++) {
+            const int c = LISTED(active.list, a);
+            const struct cursor *cursor = &crossing->cursors[c];
+            __constant struct part *part = &world->parts[LISTED(crossing->parts, c)];
+            // Lanes outside the part wait at its nearest sample, so that none reads beyond it.
+            integer at = min(i, cursor->end - 1);
+            mask present = alive;
+#if CAPACITY > 1
+            at = max(at, cursor->first);
+            present &= MASK(at == i);
             if (!any_lane(present))
                 continue;
+#endif
             *samples -= present;
-
-            // Lanes outside the part wait at its nearest sample, so that none reads beyond it.
-            const real at = TO_REAL(max(min(i, cursor->end - 1), cursor->first));
-            const struct sample sample = sample_part(
-                MEMORY_ARGUMENTS, part, cursor->ox + at * cursor->dx, cursor->oy + at * cursor->dy,
-                cursor->oz + at * cursor->dz);
+            const real t = TO_REAL(at);
+            const struct sample sample =
+                sample_part(MEMORY_ARGUMENTS, part, cursor->ox + t * cursor->dx,
+                            cursor->oy + t * cursor->dy, cursor->oz + t * cursor->dz);
             const struct entry entry = find_entry(part, sample.raw, &present);
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
@@ -160,7 +175,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
         }
 
-        i += 1;
+        i -= alive; // one on, where the ray still runs
         if (any_lane(seen)) {
 #if STRENGTH_DEPTH
             const real share = 1.0f / fmax(mixed.a, FLT_MIN);
@@ -170,8 +185,8 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             alive &= MASK(light.a <= world->termination);
         } else {
             i = leap(&active, crossing, i);
-            alive &= MASK(i != SAMPLE_NEVER);
         }
+        alive &= MASK(i < last);
     }
     return light;
 }

@@ -1,5 +1,6 @@
 // command_convert.c - `pellucid convert`: reads a volume and writes it in another format, cropped,
-// resampled or with another voxel type on the way, in the order crop, downsample, resample, type.
+// resampled or with another voxel type on the way, in the order crop, downsample, resample, type;
+// but floats come right after cropping, so that means and interpolated values are not rounded.
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -148,14 +149,17 @@ static int resample(struct pel_volume **volume, const char *text) {
 }
 
 static int apply(struct pel_volume **volume, const struct arguments *arguments) {
+    bool floats_first = arguments->retype && arguments->type == PEL_VOXEL_F32;
     int status = PEL_OK;
     if (arguments->crop)
         status = crop(volume, arguments->crop);
+    if (!status && floats_first)
+        status = take(volume, pel_volume_convert(*volume, arguments->type));
     if (!status && arguments->downsample > 1)
         status = take(volume, pel_volume_downsample(*volume, arguments->downsample));
     if (!status && arguments->resample)
         status = resample(volume, arguments->resample);
-    if (!status && arguments->retype)
+    if (!status && arguments->retype && !floats_first)
         status = take(volume, pel_volume_convert(*volume, arguments->type));
     return status;
 }

@@ -110,8 +110,7 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         state->next = state->argc;
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_state_help(state, stderr, ARGP_HELP_STD_ERR);
-        return PEL_ERROR_ARGUMENT;
+        return cli_fail(PEL_ERROR_ARGUMENT, "a command is needed; 'pellucid --help' lists them");
     default:
         return ARGP_ERR_UNKNOWN;
     }

@@ -223,6 +223,15 @@ static void what_cannot_be_saved_is_said(void **state) {
     pel_image_destroy(image);
 }
 
+static void a_path_is_checked_before_the_work(void **state) {
+    (void)state;
+    assert_true(pel_image_check_path("-"));
+    assert_true(pel_image_check_path("picture.PNG"));
+    assert_true(pel_image_check_path(test_temporary_path("a.tiff")));
+    assert_fails(pel_image_check_path("a.jpg"), PEL_ERROR_ARGUMENT, ".png, .tif");
+    assert_fails(pel_image_check_path("/nowhere/a.png"), PEL_ERROR_FILE, "/nowhere/a.png");
+}
+
 // libpng refuses pictures wider than a million pixels: a failure after the file has been opened.
 static void failure_keeps_the_old_file(void **state) {
     (void)state;
@@ -261,6 +270,7 @@ int main(void) {
         cmocka_unit_test(ppm_is_over_black),
         cmocka_unit_test(saving_twice_gives_same_bytes),
         cmocka_unit_test(what_cannot_be_saved_is_said),
+        cmocka_unit_test(a_path_is_checked_before_the_work),
         cmocka_unit_test(failure_keeps_the_old_file),
         cmocka_unit_test(impossible_sizes_are_refused),
     };

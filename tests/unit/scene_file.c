@@ -301,9 +301,9 @@ static void test_other_files(void **state) {
     FILE *stream = fopen(test_temporary_path("move.txt"), "w");
     fputs("0 -1 0 5\n1 0 0 6\n0 0 1 7\n0 0 0 1\n", stream);
     fclose(stream);
-    write_scene("ramp.json", "{'points': [[0, 'black', 0], [20, 'white', 0.5]]}");
-    struct pel_scene *scene =
-        load("{'volumes': [{'transform': {'file': 'move.txt'}, " VOLUME "}]}");
+    write_scene("ramp.json", "{'points': [[0, '#000000', 0], [20, '#ff0000', 0.5]]}");
+    struct pel_scene *scene = load(
+        "{'volumes': [{'transform': {'file': 'move.txt'}, 'transfer': 'ramp.json', " VOLUME "}]}");
     assert_matrix(&scene->instances[0].transform, (double[]){0, -1, 0, 5, 1, 0, 0, 6, 0, 0, 1, 7});
     pel_scene_destroy(scene);
 }
@@ -396,6 +396,17 @@ static const struct {
      "bad.json:1:78: volumes.0.spacing.2: must be above 0, not 0"},
     {"{'volumes': [{" VOLUME ", 'transfer': 'hott'}]}",
      "bad.json:1:60: volumes.0.transfer: no preset 'hott'; did you mean 'hot'"},
+    {"{'volumes': [{" VOLUME ", 'transfer': 3}]}",
+     "bad.json:1:60: volumes.0.transfer: expected an object or the name of a preset"},
+    {"{'volumes': [{" VOLUME ", 'transfer': {\n'preset': 'hot', 'opacity-unit': 2}}]}",
+     "bad.json:2:18: volumes.0.transfer.opacity-unit: unknown key; did you mean 'opacity_unit'"},
+    {"{'volumes': [{" VOLUME ", 'transfer': {'points': [[0, '#000000', 0],\n"
+     "[1, '#ffffff', 1.5]]}}]}",
+     "bad.json:2:1: volumes.0.transfer.points.1: opacity 1.5 is outside 0..1"},
+    {"{'volumes': [{" VOLUME ", 'palette': 'purple'}]}",
+     "bad.json:1:60: volumes.0.palette: must be grey, hot, viridis, plasma, inferno, cool-warm, "
+     "rainbow, ct-bone, ct-soft-tissue, ct-lung, ct-angio, mri, mri-brain, green, magenta, cyan, "
+     "red, blue, yellow or labels, not \"purple\""},
     {"{'volumes': [{" VOLUME ", 'name': ''}]}",
      "bad.json:1:60: volumes.0.name: must have 1 to 63 bytes, not 0"},
     {"{'volumes': [{'file': 'a.raw', 'raw': {'type': 'uint8'}}]}",
@@ -429,7 +440,7 @@ static void test_bad_scenes(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof bad_scenes / sizeof *bad_scenes; i++) {
         expect_failure(bad_scenes[i].scene, NULL, 0, bad_scenes[i].message);
-        assert_int_equal(pel_error_code(), strstr(bad_scenes[i].message, "preset")
+        assert_int_equal(pel_error_code(), strstr(bad_scenes[i].message, "no preset")
                                                ? PEL_ERROR_ARGUMENT
                                                : PEL_ERROR_FORMAT);
     }
