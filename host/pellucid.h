@@ -100,6 +100,7 @@ struct pel_volume {
     double slope, intercept; // value in the file's own unit = slope * raw + intercept
     char unit[16];           // of the values, such as "HU"; "" when unknown
     char space[64];          // where the placement came from, such as "sform (scanner)"
+    uint64_t serial;         // set by pel_volume_create and never reused: tells volumes apart
     bool labels;             // values are labels: interpolating them makes no sense
     void *voxels;            // owned; i fastest, then j, then k; no padding. In PEL_VOXEL_F32
                              // an absent voxel (NaN or Inf in the file) is NaN
@@ -460,6 +461,10 @@ PEL_API void pel_image_destroy(struct pel_image *image);
 // end. The path "-" writes PPM to the standard output.
 PEL_API bool pel_image_save(const struct pel_image *image, const char *path,
                             const struct pel_image_options *options);
+
+// Tells before a long computation whether a picture could be saved there: ARGUMENT when the
+// extension is none of those above, FILE when the folder does not exist or cannot be written.
+PEL_API bool pel_image_check_path(const char *path);
 
 #ifdef __cplusplus
 }

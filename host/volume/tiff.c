@@ -22,6 +22,7 @@
 // type.
 struct stack {
     const char *name;
+    bool split;                  // samples are channels, not a colour
     struct pel_tiff_shape shape; // of all pages
     struct pel_tiff_page page;   // the first one
     struct pel_tiff_stack meta;  // of the first file
@@ -107,7 +108,8 @@ static bool begin(struct stack *stack, const struct pel_tiff_file *file,
                   const struct pel_load_options *options) {
     int channel_count;
     stack->page = file->pages[0];
-    if (!pel_tiff_shape_of(&stack->shape, &channel_count, &stack->page, options->split_channels,
+    stack->split = options->split_channels || pel_tiff_is_composite(file);
+    if (!pel_tiff_shape_of(&stack->shape, &channel_count, &stack->page, stack->split,
                            pel_tiff_is_imagej(file)))
         return pel_fail_in("page 0");
     if (!pel_tiff_stack_init(&stack->meta, file, stack->name, channel_count, options))
@@ -118,12 +120,11 @@ static bool begin(struct stack *stack, const struct pel_tiff_file *file,
 }
 
 // Reads one page into plane z, if it is like the first.
-static bool read_plane(struct stack *stack, struct pel_tiff_file *file, int page_index, int z,
-                       const struct pel_load_options *options) {
+static bool read_plane(struct stack *stack, struct pel_tiff_file *file, int page_index, int z) {
     const struct pel_tiff_page *page = &file->pages[page_index];
     struct pel_tiff_shape shape;
     int channel_count;
-    if (!pel_tiff_shape_of(&shape, &channel_count, page, options->split_channels,
+    if (!pel_tiff_shape_of(&shape, &channel_count, page, stack->split,
                            stack->shape.indices && page->palette != PEL_PALETTE_NONE))
         return pel_fail_in("page %d", page_index);
     const struct pel_tiff_shape *first = &stack->shape;
@@ -141,8 +142,7 @@ static bool read_plane(struct stack *stack, struct pel_tiff_file *file, int page
            pel_fail_in("page %d", page_index);
 }
 
-static bool read_pages(struct stack *stack, struct pel_tiff_file *file,
-                       const struct pel_load_options *options) {
+static bool read_pages(struct stack *stack, struct pel_tiff_file *file) {
     uint64_t decoded = 0;
     for (int z = 0; z < stack->meta.plane_count; z++) {
         const struct pel_tiff_page *page = &file->pages[stack->meta.planes[z]];
@@ -153,7 +153,7 @@ static bool read_pages(struct stack *stack, struct pel_tiff_file *file,
         !allocate(stack, stack->meta.plane_count))
         return false;
     for (int z = 0; z < stack->meta.plane_count; z++)
-        if (!read_plane(stack, file, stack->meta.planes[z], z, options))
+        if (!read_plane(stack, file, stack->meta.planes[z], z))
             return false;
     return true;
 }
@@ -201,8 +201,8 @@ static bool read_file(struct stack *stack, const char *path,
     if (!pel_tiff_open(&file, path))
         return false;
     bool done =
-        begin(stack, &file, options) && (stack->meta.follow ? read_following(stack, &file, path)
-                                                            : read_pages(stack, &file, options));
+        begin(stack, &file, options) &&
+        (stack->meta.follow ? read_following(stack, &file, path) : read_pages(stack, &file));
     pel_tiff_close(&file);
     return done || pel_fail_in("%s", path);
 }
@@ -228,7 +228,7 @@ static bool read_slice(struct stack *stack, const struct pel_tiff_list *list, in
     }
     done = done &&
            check_justified(file.pages[0].decoded_bytes, file.bytes, file.pages[0].compression) &&
-           read_plane(stack, &file, 0, z, options);
+           read_plane(stack, &file, 0, z);
     pel_tiff_close(&file);
     return done || pel_fail_in("%s", list->paths[z]);
 }

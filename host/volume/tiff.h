@@ -102,6 +102,8 @@ bool pel_tiff_stack_init(struct pel_tiff_stack *stack, const struct pel_tiff_fil
 void pel_tiff_stack_finish(struct pel_tiff_stack *stack);
 
 bool pel_tiff_is_imagej(const struct pel_tiff_file *file);
+// An ImageJ composite stores the channels of a microscope as if they were red, green and blue.
+bool pel_tiff_is_composite(const struct pel_tiff_file *file);
 bool pel_tiff_is_ome(const struct pel_tiff_file *file);
 
 // Millimetres per unit of length, as OME-XML and ImageJ write it: "µm", "micron", "nm", "mm" ...

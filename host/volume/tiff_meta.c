@@ -89,6 +89,13 @@ static int find_count(const char *description, const char *key) {
     return number >= 1 && number <= PEL_TIFF_PAGE_MAX ? (int)number : 0;
 }
 
+bool pel_tiff_is_composite(const struct pel_tiff_file *file) {
+    char mode[64];
+    return pel_tiff_is_imagej(file) && find_value(file->description, "mode", mode) &&
+           strcmp(mode, "composite") == 0 &&
+           find_count(file->description, "channels") == file->pages[0].samples;
+}
+
 // ---- Spacing -----------------------------------------------------------------------------------
 
 static bool is_sensible(double spacing) {

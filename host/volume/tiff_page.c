@@ -178,7 +178,7 @@ static void store_row(const struct sink *sink, uint32_t x, uint32_t y, size_t co
         for (size_t i = 0; i < count; i++)
             raw[i] ^= largest(page->bits);
     bool expanded = page->bits == 1 || page->bits == 2 || page->bits == 4;
-    if (expanded && !sink->shape->indices && page->format != SAMPLEFORMAT_INT)
+    if (expanded && page->photometric != PHOTOMETRIC_PALETTE && page->format != SAMPLEFORMAT_INT)
         for (size_t i = 0; i < count; i++)
             raw[i] *= 255 / largest(page->bits);
     store_greys(sink, at, step, count);
@@ -345,8 +345,12 @@ static void orient(struct sink *sink) {
 static bool read_rendered(struct pel_tiff_file *file, const struct sink *sink) {
     const struct pel_tiff_page *page = sink->page;
     char reason[1024] = "";
+    if (page->bits > 8 && page->photometric == PHOTOMETRIC_SEPARATED)
+        return pel_fail(PEL_ERROR_UNSUPPORTED, "CMYK colours of %d bits; 8 can be read",
+                        page->bits);
     if (!TIFFRGBAImageOK(file->handle, reason))
-        return pel_fail(PEL_ERROR_UNSUPPORTED, "%s", reason);
+        return pel_fail(PEL_ERROR_UNSUPPORTED, "photometric interpretation %d: %s",
+                        page->photometric, reason);
     size_t count;
     size_t factors[] = {page->width, page->height, sizeof(uint32_t)};
     if (!pel_size_multiply(&count, 3, factors))
@@ -406,6 +410,8 @@ bool pel_tiff_read_page(struct pel_tiff_file *file, const struct pel_tiff_page *
     if (TIFFCurrentDirOffset(file->handle) != page->offset &&
         !TIFFSetSubDirectory(file->handle, page->offset))
         return pel_tiff_fail(file, "its directory cannot be read");
+    // Complaints about tags that did not keep the directory from being read are of no interest.
+    file->message[0] = 0;
     struct sink sink = {.page = page, .shape = shape, .out = out};
     orient(&sink);
     if (shape->rendered)
