@@ -424,12 +424,12 @@ static bool read_cmyk(struct pel_tiff_file *file, const struct sink *sink) {
 
 bool pel_tiff_read_page(struct pel_tiff_file *file, const struct pel_tiff_page *page,
                         const struct pel_tiff_shape *shape, void *out) {
-    file->message[0] = 0;
+    file->reports = (struct pel_tiff_reports){0};
     if (TIFFCurrentDirOffset(file->handle) != page->offset &&
         !TIFFSetSubDirectory(file->handle, page->offset))
         return pel_tiff_fail(file, "its directory cannot be read");
     // Complaints about tags that did not keep the directory from being read are of no interest.
-    file->message[0] = 0;
+    file->reports = (struct pel_tiff_reports){0};
     struct sink sink = {.page = page, .shape = shape, .out = out};
     orient(&sink);
     if (shape->rendered)
