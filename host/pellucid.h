@@ -322,6 +322,14 @@ struct pel_instance {
     struct pel_transfer *transfer; // owned, resolved
 };
 
+// How empty space is skipped. The picture is the same with each.
+enum pel_skip {
+    PEL_SKIP_AUTO,     // what is fastest as a rule: distance
+    PEL_SKIP_NONE,     // every sample is taken
+    PEL_SKIP_GRID,     // empty cells of 4^3 voxels are left one by one
+    PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
+};
+
 struct pel_render_settings {
     int width, height;      // pixels
     enum pel_mixing mixing; //
@@ -329,6 +337,7 @@ struct pel_render_settings {
     double phase;           // of the first sample, in steps; 0..1
     double termination;     // a ray ends once its opacity exceeds this; 1 = never
     enum pel_sample_origin origin;
+    enum pel_skip skip; //
 };
 
 struct pel_output_settings {
@@ -420,7 +429,8 @@ struct pel_render_statistics {
     uint64_t rays;           //
     uint64_t device_bytes;   // allocated on the device at the end of the frame
     uint64_t uploaded_bytes; // sent to the device for this frame
-    double prepare_ms, build_ms, upload_ms, render_ms, download_ms;
+    enum pel_skip skip;
+    double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
 };
 
 // Called between batches of tiles with the finished share, 0..1. Return false to abandon the frame.

@@ -5,8 +5,16 @@
 // into spans with a constant set of active parts; the cost of a sample follows that set. Each part has a
 // cursor; after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
-#include "ray.cl"
+#include "traverse/cursor.cl"
+
+#ifndef SKIP
+#define SKIP SKIP_NONE // how empty space is skipped
+#endif
+#if SKIP == SKIP_NONE
 #include "traverse/none.cl"
+#else
+#include "traverse/grid.cl"
+#endif
 
 #ifndef MIXING
 #define MIXING MIXING_SUM // how volumes that overlap share a sample
@@ -45,8 +53,8 @@ struct crossing {
 };
 
 // Finds the parts that the packet crosses and where each ray's samples begin.
-INLINE void find_crossing(__constant struct world *world, const struct ray *ray,
-                          struct crossing *crossing) {
+INLINE void find_crossing(__constant struct world *world, __global const uchar *cells,
+                          const struct ray *ray, struct crossing *crossing) {
     const struct span bounds = box_span(ray, world->bounds_low, world->bounds_high);
     real t_near = bounds.near;
     if (!world->origin_bounds) {
@@ -64,8 +72,10 @@ INLINE void find_crossing(__constant struct world *world, const struct ray *ray,
         __constant struct part *part = &world->parts[p];
         const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
         const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
-        const struct cursor cursor = cursor_begin(world, part, &ray_voxel, &span, t_near);
-        if (any_lane(MASK(cursor.first < cursor.end))) {
+        struct cursor cursor = cursor_begin(world, part, &ray_voxel, &span, t_near);
+        if (any_lane(MASK(cursor.first < cursor.end)))
+            cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
+        if (any_lane(MASK(cursor.next < cursor.end))) {
             const int c = CAPACITY == 1 ? 0 : crossing->count;
             crossing->cursors[c] = cursor;
             crossing->parts[c] = p;
@@ -82,6 +92,7 @@ struct active {
     integer until;
 };
 
+#if CAPACITY > 1
 // Finds the span that begins at sample i.
 INLINE void begin_span(struct active *active, const struct crossing *crossing, integer i,
                        mask alive) {
@@ -96,25 +107,28 @@ INLINE void begin_span(struct active *active, const struct crossing *crossing, i
             active->list[active->count++] = c;
     }
 }
+#endif
 
 // The next sample, from i on, that may show something; SAMPLE_NEVER at the end.
 INLINE integer leap(const struct active *active, const struct crossing *crossing, integer i) {
     integer next = active->until;
-    for (int a = 0; a < COUNTED(active->count); a++)
-        next = min(next, cursor_leap(&crossing->cursors[LISTED(active->list, a)], i));
+    for (int a = 0; a < COUNTED(active->count); a++) {
+        const struct cursor *cursor = &crossing->cursors[LISTED(active->list, a)];
+        next = min(next, CHOOSE((integer)(SAMPLE_NEVER), cursor->next, MASK(i < cursor->end)));
+    }
     return max(next, i);
 }
 
 // Follows the rays and returns the light they gather. Adds the samples taken to *samples.
 INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE const uint *table,
-                                MEMORY_PARAMETERS, const struct crossing *crossing,
-                                integer *samples) {
+                                __global const uchar *cells, MEMORY_PARAMETERS,
+                                struct crossing *crossing, integer *samples) {
     const real zero = (real)(0.0f);
     struct light light = {zero, zero, zero, zero};
     // The first sample of each ray, and the one behind its last.
     integer i = (integer)(SAMPLE_NEVER), last = (integer)(0);
     for (int c = 0; c < COUNTED(crossing->count); c++) {
-        i = min(i, crossing->cursors[c].first);
+        i = min(i, crossing->cursors[c].next);
         last = max(last, crossing->cursors[c].end);
     }
     mask alive = MASK(i < last);
@@ -132,27 +146,26 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
         for (int a = 0; a < COUNTED(active.count); a++) {
             const int c = LISTED(active.list, a);
-            const struct cursor *cursor = &crossing->cursors[c];
+            struct cursor *cursor = &crossing->cursors[c];
             __constant struct part *part = &world->parts[LISTED(crossing->parts, c)];
-            // Lanes outside the part wait at its nearest sample, so that none reads beyond it.
-            integer at = min(i, cursor->end - 1);
             mask present = alive;
 #if CAPACITY > 1
-            at = max(at, cursor->first);
-            present &= MASK(at == i);
+            present &= MASK(i >= cursor->next) & MASK(i < cursor->end);
             if (!any_lane(present))
                 continue;
 #endif
             *samples -= present;
-            const real t = TO_REAL(at);
+            const real t = TO_REAL(cursor_clamp(cursor, i));
             const struct sample sample =
                 sample_part(MEMORY_ARGUMENTS, part, cursor->ox + t * cursor->dx,
                             cursor->oy + t * cursor->dy, cursor->oz + t * cursor->dz);
             const struct entry entry = find_entry(part, sample.raw, &present);
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
-            if (!any_lane(visible))
+            if (!any_lane(visible)) {
+                cursor->next = cursor_leap(part, cells, cursor, i + 1);
                 continue;
+            }
             seen |= visible;
 
             real r, g, b;
@@ -195,7 +208,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 // premultiplied RGBA, rows from the top, and each packet's number of samples.
 __kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
                      __global float4 *picture, __global uint *sample_counts, const uint first_tile,
-                     MEMORY_PARAMETERS) {
+                     __global const uchar *cells, MEMORY_PARAMETERS) {
     const uint packets_per_row = TILE_PX / PACKET_W;
     const uint packets_per_tile = packets_per_row * (TILE_PX / PACKET_H);
     const uint packet = get_global_id(0) % packets_per_tile;
@@ -208,11 +221,11 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
 
     const struct ray ray = camera_ray(world, left + LANE_X, top + LANE_Y);
     struct crossing crossing;
-    find_crossing(world, &ray, &crossing);
+    find_crossing(world, cells, &ray, &crossing);
     integer samples = (integer)(0);
     struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)};
     if (crossing.count > 0)
-        light = follow_rays(world, table, MEMORY_ARGUMENTS, &crossing, &samples);
+        light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
 
     const float4 behind = world->background;
     const real clear = 1.0f - light.a;

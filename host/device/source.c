@@ -1,7 +1,9 @@
 // source.c - puts a kernel's includes in place.
 //
 // OpenCL 1.2 has headers for programs, but drivers disagree on how -I and embedded headers meet; a
-// single text is what all of them take. Includes are named by their path below kernels/.
+// single text is what all of them take. Includes are named by their path below kernels/. Each file
+// is put in once, where it is named first, so a file that several others need must not be named
+// first between #if and #endif.
 #include "device/source.h"
 
 #include <stdio.h>

@@ -11,6 +11,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "device/device.h"
+#include "render/mirror.h"
+#include "render/occupancy.h"
 #include "render/residency.h"
 #include "render/variant.h"
 
@@ -24,19 +26,13 @@ struct cached_kernel {
     struct pel_kernel *kernel;
 };
 
-// A buffer on the device with a copy of what was last sent there.
-struct mirror {
-    struct pel_buffer *buffer;
-    void *copy;
-    size_t bytes;
-};
-
 struct pel_renderer {
     struct pel_device *device;
     struct pel_renderer_options options;
     struct pel_residency residency;
     struct cached_kernel kernels[KERNEL_CACHE]; // newest first
-    struct mirror world, tables;
+    struct pel_mirror world, tables;
+    struct pel_occupancy occupancy;
     struct pel_buffer *picture, *sample_counts;
     size_t picture_bytes, sample_counts_bytes;
     double tiles_per_ms; // as the last frame ran; 0 = unknown
@@ -56,43 +52,6 @@ static double lap_ms(double *mark) {
 }
 
 // ---- What is on the device ---------------------------------------------------------------------
-
-static void mirror_finish(struct mirror *mirror) {
-    pel_buffer_destroy(mirror->buffer);
-    free(mirror->copy);
-    *mirror = (struct mirror){0};
-}
-
-// Sends the blocks that differ from what is there: so a camera that moved sends only itself.
-static bool mirror_update(struct mirror *mirror, struct pel_device *device, const void *data,
-                          size_t bytes, const char *purpose) {
-    enum { BLOCK = 4096, HEAD = sizeof(struct camera) };
-    bool fresh = bytes != mirror->bytes;
-    if (fresh) {
-        mirror_finish(mirror);
-        mirror->buffer = pel_buffer_create(device, bytes, purpose);
-        mirror->copy = pel_allocate(bytes, 1);
-        mirror->bytes = bytes;
-        if (!mirror->buffer || !mirror->copy) {
-            mirror_finish(mirror);
-            return false;
-        }
-    }
-    size_t end;
-    for (size_t start = 0; start < bytes; start = end) {
-        end = start == 0 ? HEAD : start + BLOCK;
-        if (end > bytes)
-            end = bytes;
-        const char *block = (const char *)data + start;
-        char *copy = (char *)mirror->copy + start;
-        if (!fresh && memcmp(block, copy, end - start) == 0)
-            continue;
-        if (!pel_buffer_write(mirror->buffer, start, end - start, block))
-            return false;
-        memcpy(copy, block, end - start);
-    }
-    return true;
-}
 
 // A buffer of at least `bytes`, made anew when it is too small.
 static bool grow_buffer(struct pel_buffer **buffer, size_t *have, size_t bytes,
@@ -182,13 +141,16 @@ static bool check_memory(const struct pel_layout *layout, const struct pel_layou
     return true;
 }
 
-static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel) {
+// Binds everything but the first tile, in the order of the kernel's parameters. A kernel has an
+// atlas for each class in `voxels` only.
+static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel, int voxels) {
     int index = 0;
     bool good = pel_kernel_set_buffer(kernel, index++, renderer->world.buffer) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->picture) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->sample_counts);
     index++; // the first tile is set for each batch
+    good = good && pel_kernel_set_buffer(kernel, index++, renderer->occupancy.cells);
     struct pel_residency *residency = &renderer->residency;
     if (residency->layout.reader == PEL_READER_BUFFER) {
         for (int b = 0; good && b < VOXEL_BUFFERS; b++)
@@ -197,7 +159,7 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
     }
     uint32_t atlas_count = 0;
     for (int class = 0; good && class < VOXEL_CLASS_COUNT; class ++) {
-        if (!residency->atlases[class])
+        if (!(voxels & 1 << class))
             continue;
         good = pel_kernel_set_texture(kernel, index++, residency->atlases[class]);
         atlas_count++;
@@ -269,8 +231,10 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     double mark = now_ms();
     struct pel_device *device = renderer->device;
     int lanes = statistics->lanes;
-    struct pel_variant variant = pel_variant_choose(
-        world, layout->reader, lanes, pel_device_describe(device)->max_constant_bytes);
+    bool skip = statistics->skip != PEL_SKIP_NONE;
+    struct pel_variant variant =
+        pel_variant_choose(world, layout->reader, statistics->skip, lanes,
+                           pel_device_describe(device)->max_constant_bytes);
     struct pel_kernel *kernel = find_kernel(renderer, &variant);
     if (!kernel)
         return NULL;
@@ -279,20 +243,23 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     *extent = picture_extent(&scene->render, lanes, choose_group(renderer, kernel));
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     size_t packets = (extent->tiles + extent->tiles_per_group) * extent->packets_per_tile;
-    static const u32 no_tables[2] = {0};
-    bool empty = world->table_words == 0;
     if (!pel_residency_update(&renderer->residency, scene, layout) ||
-        !mirror_update(&renderer->world, device, &world->bytes, sizeof world->bytes, "the scene") ||
-        !mirror_update(&renderer->tables, device, empty ? no_tables : world->tables,
-                       empty ? sizeof no_tables : world->table_words * sizeof *world->tables,
-                       "transfer functions") ||
+        !pel_mirror_update(&renderer->world, device, &world->bytes, sizeof world->bytes,
+                           sizeof world->bytes.camera, "the scene", NULL) ||
+        !pel_mirror_update(&renderer->tables, device, world->tables,
+                           world->table_words * sizeof *world->tables, 0, "transfer functions",
+                           NULL) ||
         !grow_buffer(&renderer->picture, &renderer->picture_bytes, pixels * sizeof(float4), device,
                      "the picture") ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
-                     packets * sizeof(u32), device, "sample counts") ||
-        !set_arguments(renderer, kernel))
+                     packets * sizeof(u32), device, "sample counts"))
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
+    if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
+                              &renderer->residency, skip) ||
+        !set_arguments(renderer, kernel, variant.voxels))
+        return NULL;
+    statistics->skip_ms = lap_ms(&mark);
     statistics->work_group = (int)extent->group;
     return kernel;
 }
@@ -317,6 +284,17 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
     statistics->rays = pixels;
     statistics->samples = count_samples(renderer, extent->tiles * extent->packets_per_tile);
     statistics->download_ms = lap_ms(&mark);
+    return image;
+}
+
+// The picture of nothing: the background.
+static struct pel_image *render_background(const struct pel_world *world) {
+    struct pel_image *image = pel_image_create(world->bytes.width, world->bytes.height);
+    if (!image)
+        return NULL;
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < pixels; i++)
+        memcpy(&image->rgba[4 * i], &world->bytes.background, sizeof world->bytes.background);
     return image;
 }
 
@@ -346,12 +324,17 @@ struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struc
         return NULL;
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout.reader;
+    statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
     statistics->prepare_ms = lap_ms(&mark);
 
-    struct extent extent;
-    struct pel_kernel *kernel = prepare(renderer, scene, &layout, &world, &extent, statistics);
-    struct pel_image *image =
-        kernel ? run(renderer, kernel, scene, &extent, options, statistics) : NULL;
+    struct pel_image *image;
+    if (world.bytes.part_count == 0) {
+        image = render_background(&world);
+    } else {
+        struct extent extent;
+        struct pel_kernel *kernel = prepare(renderer, scene, &layout, &world, &extent, statistics);
+        image = kernel ? run(renderer, kernel, scene, &extent, options, statistics) : NULL;
+    }
     pel_world_finish(&world);
     memcpy(statistics->device, info->name, sizeof statistics->device);
     memcpy(statistics->driver, info->driver, sizeof statistics->driver);
@@ -389,8 +372,9 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     if (!renderer)
         return;
     pel_residency_finish(&renderer->residency);
-    mirror_finish(&renderer->world);
-    mirror_finish(&renderer->tables);
+    pel_mirror_finish(&renderer->world);
+    pel_mirror_finish(&renderer->tables);
+    pel_occupancy_finish(&renderer->occupancy);
     pel_buffer_destroy(renderer->picture);
     pel_buffer_destroy(renderer->sample_counts);
     for (int i = 0; i < KERNEL_CACHE; i++)

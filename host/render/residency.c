@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accel/grid.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "world/pack.h"
@@ -48,7 +49,9 @@ static bool create_memory(struct pel_residency *residency, const struct pel_layo
         if (!residency->atlases[class])
             return false;
     }
-    return true;
+    residency->ranges = pel_buffer_create(residency->device, layout->range_count * sizeof(float[2]),
+                                          "ranges of values");
+    return residency->ranges != NULL;
 }
 
 // Sends `count` packed slices of a slab, from its border's slice `first` on.
@@ -64,29 +67,37 @@ static bool send_slices(struct pel_residency *residency, const struct pel_slab *
     return pel_texture_write(residency->atlases[slab->class_index], origin, dims, slices);
 }
 
+// Packs and sends a slab, and on the way finds the range of values in each of its cells.
 static bool send_slab(struct pel_residency *residency, const struct pel_volume *volume,
                       const struct pel_slab *slab) {
-    size_t slice_dims[2] = {(size_t)volume->dims[0] + 2, (size_t)volume->dims[1] + 2};
-    size_t slice_bytes;
-    if (!pel_size_multiply(
-            &slice_bytes, 3,
-            (size_t[]){slice_dims[0], slice_dims[1], pel_voxel_class_bytes(slab->class_index)}))
+    size_t dims[3], slice_bytes;
+    pel_slab_dims(slab, volume, dims);
+    if (!pel_size_multiply(&slice_bytes, 3,
+                           (size_t[]){dims[0], dims[1], pel_voxel_class_bytes(slab->class_index)}))
         return false;
-    size_t total = (size_t)slab->count + 2;
     size_t most = piece_bytes / slice_bytes > 0 ? piece_bytes / slice_bytes : 1;
-    if (most > total)
-        most = total;
-    char *piece = pel_allocate_voxels(most * slice_bytes);
-    if (!piece)
+    if (most > dims[2])
+        most = dims[2];
+    struct pel_grid grid;
+    if (!pel_grid_init(&grid, dims))
         return false;
-    bool good = true;
-    for (size_t first = 0; good && first < total; first += most) {
-        size_t count = total - first < most ? total - first : most;
-        for (size_t i = 0; i < count; i++)
-            pel_pack_slice(volume, slab->first - 1 + (int)(first + i), piece + i * slice_bytes);
-        good = send_slices(residency, slab, slice_dims, slice_bytes, first, count, piece);
+    char *piece = pel_allocate_voxels(most * slice_bytes);
+    bool good = piece != NULL;
+    double scale = 1 / pel_reader_factor(residency->layout.reader, slab->class_index);
+    for (size_t first = 0; good && first < dims[2]; first += most) {
+        size_t count = dims[2] - first < most ? dims[2] - first : most;
+        for (size_t i = 0; i < count; i++) {
+            char *slice = piece + i * slice_bytes;
+            pel_pack_slice(volume, slab->first - 1 + (int)(first + i), slice);
+            pel_grid_add_slice(&grid, first + i, slice, slab->class_index, (float)scale);
+        }
+        good = send_slices(residency, slab, dims, slice_bytes, first, count, piece);
     }
+    size_t cells = grid.cells[0] * grid.cells[1] * grid.cells[2];
+    good = good && pel_buffer_write(residency->ranges, slab->ranges * sizeof *grid.range,
+                                    cells * sizeof *grid.range, grid.range);
     free(piece);
+    pel_grid_finish(&grid);
     return good;
 }
 
@@ -117,5 +128,7 @@ void pel_residency_finish(struct pel_residency *residency) {
         pel_texture_destroy(residency->atlases[class]);
         residency->atlases[class] = NULL;
     }
+    pel_buffer_destroy(residency->ranges);
+    residency->ranges = NULL;
     memset(&residency->layout, 0, sizeof residency->layout);
 }

@@ -10,6 +10,7 @@ struct pel_residency {
     struct pel_layout layout;
     struct pel_buffer *buffers[VOXEL_BUFFERS];
     struct pel_texture *atlases[VOXEL_CLASS_COUNT];
+    struct pel_buffer *ranges; // two floats for each cell of each slab
 };
 
 // What the device can hold; `max_allocation_bytes` lowers its own limit unless 0.

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_reader reader,
-                                      int lanes, uint64_t constant_bytes) {
+                                      enum pel_skip skip, int lanes, uint64_t constant_bytes) {
     int parts = world->bytes.part_count;
     return (struct pel_variant){
         .lanes = lanes,
@@ -13,6 +13,9 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .voxels = world->voxels ? world->voxels : VOXELS_U8,
         .filters = world->filters ? world->filters : FILTERS_LINEAR,
         .mixing = world->mixing,
+        .skip = skip == PEL_SKIP_NONE   ? SKIP_NONE
+                : skip == PEL_SKIP_GRID ? SKIP_GRID
+                                        : SKIP_DISTANCE,
         .capacity = parts <= 1   ? 1
                     : parts <= 8 ? 8
                                  : WORLD_PART_MAX,
@@ -23,11 +26,10 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
 }
 
 void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_BYTES]) {
-    snprintf(
-        text, PEL_VARIANT_BYTES,
-        "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DCAPACITY=%d "
-        "-DTABLE_LINEAR=%d -DTABLE_SPACE=%s",
-        variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
-        variant->capacity, variant->table_linear,
-        variant->table_global ? "__global" : "__constant");
+    snprintf(text, PEL_VARIANT_BYTES,
+             "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
+             "-DCAPACITY=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s",
+             variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
+             variant->skip, variant->capacity, variant->table_linear,
+             variant->table_global ? "__global" : "__constant");
 }

@@ -13,6 +13,7 @@ struct pel_variant {
     int voxels;   // VOXELS_*
     int filters;  // FILTERS_*
     int mixing;   // MIXING_*
+    int skip;     // SKIP_*
     int capacity; // parts: 1, 8 or WORLD_PART_MAX
     bool table_linear;
     bool table_global; // the tables do not fit into constant memory
@@ -20,7 +21,7 @@ struct pel_variant {
 
 // The variant for a world on a device with `constant_bytes` of constant memory.
 struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_reader reader,
-                                      int lanes, uint64_t constant_bytes);
+                                      enum pel_skip skip, int lanes, uint64_t constant_bytes);
 
 // Every definition by name. The only place that knows the kernels' knobs.
 void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_BYTES]);

@@ -59,6 +59,18 @@ static void control_range(struct pel_table *table, const struct pel_transfer *tr
         table->low = low - (high - low) / (table->entry_count > 2 ? table->entry_count - 2 : 1);
 }
 
+// The value of an entry; where a control point lies there but for rounding, that point's own value,
+// so that a step that falls on an entry is not missed.
+static double on_control_point(const struct pel_transfer *transfer, double value, double entry) {
+    for (int i = 0; i < transfer->colour_count; i++)
+        if (fabs(transfer->colours[i].value - value) <= rounding * entry)
+            return transfer->colours[i].value;
+    for (int i = 0; i < transfer->opacity_count; i++)
+        if (fabs(transfer->opacities[i].value - value) <= rounding * entry)
+            return transfer->opacities[i].value;
+    return value;
+}
+
 bool pel_table_build(struct pel_table *table, const struct pel_transfer *resolved,
                      const struct pel_volume *volume) {
     assert(resolved->scale == PEL_VALUES_ABSOLUTE);
@@ -85,13 +97,11 @@ bool pel_table_build(struct pel_table *table, const struct pel_transfer *resolve
     table->rgba = pel_allocate((size_t)table->entry_count, sizeof *table->rgba);
     if (!table->rgba)
         return false;
-    double range = table->high - table->low;
+    double entry = (table->high - table->low) / (table->entry_count - 1);
     for (int j = 0; j < table->entry_count; j++) {
-        // A step that falls on an entry must not miss it for a rounding error of the value.
-        double place = (j + rounding) / (table->entry_count - 1);
-        double value = table->low + place * range;
         double rgba[4];
-        pel_transfer_evaluate(resolved, value, rgba);
+        pel_transfer_evaluate(resolved, on_control_point(resolved, table->low + j * entry, entry),
+                              rgba);
         for (int i = 0; i < 4; i++)
             table->rgba[j][i] = (float)rgba[i];
     }

@@ -4,6 +4,7 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "accel/grid.h"
 #include "base/error.h"
 
 // Buffers are addressed with 31 bits per lane, whatever the device would allow.
@@ -31,6 +32,18 @@ int pel_voxel_class(enum pel_voxel_type type) {
 
 size_t pel_voxel_class_bytes(int class_index) {
     return (size_t[VOXEL_CLASS_COUNT]){1, 2, 4, 4}[class_index];
+}
+
+void pel_slab_dims(const struct pel_slab *slab, const struct pel_volume *volume, size_t dims[3]) {
+    dims[0] = (size_t)volume->dims[0] + 2;
+    dims[1] = (size_t)volume->dims[1] + 2;
+    dims[2] = (size_t)slab->count + 2;
+}
+
+double pel_reader_factor(enum pel_reader reader, int class_index) {
+    if (reader != PEL_READER_IMAGE)
+        return 1;
+    return (double[VOXEL_CLASS_COUNT]){255, 65535, 1, 255}[class_index];
 }
 
 static uint64_t slice_bytes(const struct pel_volume *volume) {
@@ -61,6 +74,12 @@ static struct pel_slab *add_slab(struct pel_layout *layout, const struct pel_sce
     slab->class_index = pel_voxel_class(scene->volumes[v]->type);
     slab->first = first;
     slab->count = count;
+    slab->ranges = (u32)layout->range_count;
+    size_t dims[3], cells = 1;
+    pel_slab_dims(slab, scene->volumes[v], dims);
+    for (int i = 0; i < 3; i++)
+        cells *= pel_grid_cells(dims[i]);
+    layout->range_count += cells;
     return slab;
 }
 

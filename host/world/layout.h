@@ -28,6 +28,7 @@ struct pel_slab {
     int first, count;      // slices, border not counted
     int buffer;            // `buffer` reader: which buffer,
     uint64_t offset_bytes; // and where in it
+    u32 ranges;            // index of the first cell's range of values
     size_t origin[3];      // `image` reader: the border's first texel in its atlas
 };
 
@@ -36,6 +37,7 @@ struct pel_layout {
     int slab_count;
     struct pel_slab slabs[WORLD_PART_MAX];
     uint64_t buffer_bytes[VOXEL_BUFFERS];
+    size_t range_count;                 // cells of all slabs
     size_t atlas[VOXEL_CLASS_COUNT][3]; // texels; 0 where a class does not occur
 };
 
@@ -43,6 +45,12 @@ struct pel_layout {
 // voxel.
 int pel_voxel_class(enum pel_voxel_type type);
 size_t pel_voxel_class_bytes(int class_index);
+
+// Stored voxels of a slab along x, y and z, border included.
+void pel_slab_dims(const struct pel_slab *slab, const struct pel_volume *volume, size_t dims[3]);
+
+// What the reader multiplies a stored voxel by: images give 0..1 for integers.
+double pel_reader_factor(enum pel_reader reader, int class_index);
 
 // Finds a place for all of the scene's volumes. `reader` may be PEL_READER_AUTO with a `preferred`
 // one: then the other is taken where the preferred cannot be. Fails (DEVICE) with needed and

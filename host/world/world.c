@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accel/grid.h"
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
@@ -68,22 +69,18 @@ static double finest_spacing(const struct pel_scene *scene) {
     return isfinite(finest) ? finest : 1;
 }
 
-// What has to be added to a stored voxel to have the file's raw one, and what a reader multiplies
-// it by.
-static void stored_voxel(enum pel_voxel_type type, enum pel_reader reader, double *bias,
-                         double *factor) {
-    *bias = type == PEL_VOXEL_I8 ? -128 : type == PEL_VOXEL_I16 ? -32768 : 0;
-    *factor = 1;
-    if (reader == PEL_READER_IMAGE && type != PEL_VOXEL_F32)
-        *factor = pel_voxel_class(type) == 1 ? 65535 : 255;
+// What has to be added to a stored voxel to have the file's raw one: signed integers are stored
+// unsigned.
+static double stored_bias(enum pel_voxel_type type) {
+    return type == PEL_VOXEL_I8 ? -128 : type == PEL_VOXEL_I16 ? -32768 : 0;
 }
 
 // How the kernel finds the table's entry for what it reads.
 static void fill_table_address(struct part *part, const struct pel_volume *volume,
                                const struct pel_table *table, int refinement,
                                enum pel_reader reader) {
-    double bias, factor;
-    stored_voxel(volume->type, reader, &bias, &factor);
+    double bias = stored_bias(volume->type);
+    double factor = pel_reader_factor(reader, pel_voxel_class(volume->type));
     double entries = (table->entry_count - 1) * refinement / (table->high - table->low);
     part->table_scale = (float)(volume->slope * factor * entries);
     part->table_bias = (float)((volume->intercept + volume->slope * bias - table->low) * entries);
@@ -137,7 +134,36 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         part->offset = (u32)(slab->offset_bytes / pel_voxel_class_bytes(slab->class_index));
         part->voxels = 1 << slab->class_index;
         world->voxels |= part->voxels;
+
+        size_t stored[3];
+        pel_slab_dims(slab, volume, stored);
+        part->cell_row = (i32)pel_grid_cells(stored[0]);
+        part->cell_slice = part->cell_row * (i32)pel_grid_cells(stored[1]);
+        part->cells = (u32)world->cell_count;
+        part->ranges = slab->ranges;
+        world->cell_count += (size_t)part->cell_slice * pel_grid_cells(stored[2]);
     }
+    return true;
+}
+
+// Appends the counts of visible entries for the table that starts at `start`: one more than it has
+// entries.
+static bool count_visible(struct pel_world *world, const u32 *start, size_t entries,
+                          struct part *part) {
+    size_t words = world->visible_words + entries + 1;
+    u32 *visible = realloc(world->visible, words * sizeof *visible);
+    if (!visible)
+        return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
+    world->visible = visible;
+    part->visible = (u32)world->visible_words;
+    u32 *counts = visible + world->visible_words;
+    counts[0] = 0;
+    for (size_t i = 0; i < entries; i++) {
+        float strength;
+        memcpy(&strength, &start[PEL_STRENGTH_WORDS * i], sizeof strength);
+        counts[i + 1] = counts[i] + (strength > 0);
+    }
+    world->visible_words = words;
     return true;
 }
 
@@ -165,6 +191,8 @@ static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
            PEL_STRENGTH_WORDS * sizeof *start);
     part->table = (u32)world->table_words;
     world->table_words = words;
+    if (!count_visible(world, start, entries, part))
+        return false;
     fill_table_address(part, scene->volumes[instance->volume], table, refinement, layout->reader);
     return true;
 }
@@ -267,6 +295,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
 
 void pel_world_finish(struct pel_world *world) {
     free(world->tables);
-    world->tables = NULL;
-    world->table_words = 0;
+    free(world->visible);
+    world->tables = world->visible = NULL;
+    world->table_words = world->visible_words = 0;
 }

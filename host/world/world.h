@@ -9,6 +9,9 @@ struct pel_world {
     struct world bytes;
     u32 *tables; // owned; the words of all transfer functions, one after the other
     size_t table_words;
+    u32 *visible; // owned; for each table, how many entries before each one can be seen
+    size_t visible_words;
+    size_t cell_count; // of all parts (shared/grid.h)
     // What the kernel must be able to do.
     int voxels;        // classes of voxels, VOXELS_*
     int filters;       // FILTERS_*

@@ -22,6 +22,11 @@
 #define FILTERS_LINEAR 1
 #define FILTERS_NEAREST 2
 
+// SKIP: how empty space is skipped.
+#define SKIP_NONE 0     // not at all
+#define SKIP_GRID 1     // cell by cell
+#define SKIP_DISTANCE 2 // by the distance to the nearest cell with something in it
+
 // Pixels along a side of the square tiles in which work is handed out.
 #define TILE_PX 16
 

@@ -40,10 +40,13 @@ struct part {
     i32 voxels;                 // one of VOXELS_*
     i32 filter;                 // one of FILTERS_*
     i32 table_nearest;          // 1: round the entry, 0: interpolate between entries
-    i32 pad;
+    u32 cells;                  // index of the part's first cell (shared/grid.h)
+    i32 cell_row, cell_slice;   // cells from one row and slice of them to the next
+    u32 ranges;                 // index of the first cell's range of values
+    u32 visible;                // index of the table's first count of visible entries
 };
 
-SHARED_ASSERT(sizeof(struct part) == 144, part_size);
+SHARED_ASSERT(sizeof(struct part) == 160, part_size);
 
 struct world {
     struct camera camera;
@@ -59,6 +62,6 @@ struct world {
     struct part parts[WORLD_PART_MAX];
 };
 
-SHARED_ASSERT(sizeof(struct world) == 176 + 144 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 176 + 160 * WORLD_PART_MAX, world_size);
 
 #endif

@@ -1,0 +1,30 @@
+// grid.h - the range of values in each cell of a slab, from which a transfer function tells what is
+// empty.
+#ifndef PEL_ACCEL_GRID_H
+#define PEL_ACCEL_GRID_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "shared/grid.h"
+
+// Ranges of stored voxels over cells of CELL_VOXELS^3 (shared/grid.h), filled slice by slice.
+struct pel_grid {
+    size_t dims[3];    // stored voxels along x, y, z
+    size_t cells[3];   // cells along x, y, z
+    float (*range)[2]; // owned; least and greatest value of each cell; least > greatest: all absent
+};
+
+// The number of cells over `voxels` stored voxels along one axis.
+size_t pel_grid_cells(size_t voxels);
+
+// Prepares for a slab of dims[0] x dims[1] x dims[2] stored voxels, border included. False: MEMORY.
+bool pel_grid_init(struct pel_grid *grid, const size_t dims[3]);
+void pel_grid_finish(struct pel_grid *grid);
+
+// Takes stored slice z, dims[0] x dims[1] voxels of the class with index `class_index` (the bit of
+// VOXELS_*), whose value is scaled by `factor` as the reader will scale it.
+void pel_grid_add_slice(struct pel_grid *grid, size_t z, const void *slice, int class_index,
+                        float factor);
+
+#endif

@@ -1,0 +1,35 @@
+// occupancy.h - which cells of each part may show something, derived on the device.
+#ifndef PEL_RENDER_OCCUPANCY_H
+#define PEL_RENDER_OCCUPANCY_H
+
+#include "render/mirror.h"
+#include "render/residency.h"
+#include "world/world.h"
+
+// What the distances depend on besides the counts of visible entries.
+struct pel_occupancy_key {
+    struct pel_layout layout;
+    struct part parts[WORLD_PART_MAX]; // with only the members that matter filled in
+    int part_count;
+    bool linear;
+};
+
+// Zero-initialise.
+struct pel_occupancy {
+    struct pel_kernel *occupy, *spread;
+    struct pel_mirror visible; // counts of visible entries
+    struct pel_buffer *cells,
+        *scratch;                 // a distance for each cell of each part, and room to work in
+    size_t cell_count;            // room in both
+    struct pel_occupancy_key key; // what the distances are for; part_count 0 = nothing
+};
+
+// Derives the distances for a world whose bytes are in `world_buffer`, unless they are there from
+// the last time. With `skip` false only a buffer that kernels can be given is made. False: DEVICE,
+// MEMORY, BUILD.
+bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
+                          const struct pel_world *world, const struct pel_buffer *world_buffer,
+                          const struct pel_residency *residency, bool skip);
+void pel_occupancy_finish(struct pel_occupancy *occupancy);
+
+#endif

@@ -1,0 +1,14 @@
+// grid.h - the grid of cells over a part's memory, the same for host and kernels.
+//
+// Cell (x,y,z) is for sample positions CELL_VOXELS * x <= p < CELL_VOXELS * (x + 1) in memory coordinates (and so
+// on), whose interpolation needs the voxels CELL_VOXELS * x .. CELL_VOXELS * (x + 1), both included.
+#ifndef SHARED_GRID_H
+#define SHARED_GRID_H
+
+#define CELL_BITS 2
+#define CELL_VOXELS (1 << CELL_BITS)
+
+// No distance is larger than this, in cells.
+#define CELL_DISTANCE_MAX 63
+
+#endif
