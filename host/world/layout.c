@@ -203,6 +203,9 @@ bool pel_layout_plan(struct pel_layout *layout, const struct pel_scene *scene,
                      const struct pel_layout_limits *limits, enum pel_reader reader,
                      enum pel_reader preferred) {
     enum pel_reader first = reader == PEL_READER_AUTO ? preferred : reader;
+    // A scene without volumes has no image to give to a kernel that reads one.
+    if (scene->volume_count == 0)
+        first = PEL_READER_BUFFER;
     memset(layout, 0, sizeof *layout);
     if (first == PEL_READER_IMAGE ? plan_images(layout, scene, limits)
                                   : plan_buffers(layout, scene, limits))

@@ -258,6 +258,10 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      layout->slabs[s].volume == scene->instances[k].volume;
     world->depth = world->mixing == MIXING_SUM && parts > 1;
     good = good && fill_instances(world, scene, layout, tables, centre);
+    // A kernel is given every atlas there is, those of hidden volumes too.
+    for (int class = 0; class < VOXEL_CLASS_COUNT; class ++)
+        if (layout->atlas[class][0] > 0)
+            world->voxels |= 1 << class;
     for (int k = 0; k < PEL_VOLUME_MAX; k++)
         pel_table_finish(&tables[k]);
     if (!good)

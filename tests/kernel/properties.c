@@ -179,7 +179,7 @@ static void test_split_volumes(void **state) {
         if (!four)
             add_waves(scene, small_or(12, 24), PEL_VOXEL_F32, 4, 0.1)->transform = turned(5, 2);
         // With its border the last volume, the largest, takes more than this.
-        uint64_t limit_bytes = pel_volume_bytes(scene->volumes[four ? 3 : 0]) * 11 / 10;
+        uint64_t limit_bytes = pel_volume_bytes(scene->volumes[four ? 3 : 0]) * 5 / 4;
         struct pel_image *pictures[2];
         render_limited(scene, limit_bytes, pictures);
         assert_pictures_within(pictures[1], pictures[0], 0.1, 2, "in pieces");
@@ -252,18 +252,22 @@ static void test_32_volumes(void **state) {
 
 // ---- Places ------------------------------------------------------------------------------------
 
-// Renders the scene through every reader and with one and many lanes, and takes the scene.
+// Renders the scene through buffers with one and many lanes, through images where there are any,
+// and takes the scene.
 static void judge_everywhere(struct pel_scene *scene, const char *title) {
     static const struct {
         enum pel_reader reader;
         int lanes;
-    } variants[] = {{PEL_READER_BUFFER, 1}, {PEL_READER_BUFFER, 16}, {PEL_READER_AUTO, 0}};
+    } variants[] = {{PEL_READER_BUFFER, 1}, {PEL_READER_BUFFER, 16}, {PEL_READER_IMAGE, 1}};
     struct judge *judge = judge_create(scene);
     for (size_t i = 0; i < sizeof variants / sizeof *variants; i++) {
         struct pel_renderer *renderer = judge_renderer(variants[i].reader, variants[i].lanes);
         struct pel_render_statistics statistics;
         struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, &statistics);
-        judge_check(judge, picture, &statistics, title);
+        bool no_images = !picture && variants[i].reader == PEL_READER_IMAGE &&
+                         pel_error_code() == PEL_ERROR_UNSUPPORTED;
+        if (!no_images)
+            judge_check(judge, picture, &statistics, title);
         pel_image_destroy(picture);
         pel_renderer_destroy(renderer);
     }
