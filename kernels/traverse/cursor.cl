@@ -29,23 +29,24 @@ INLINE struct cursor cursor_begin(__constant struct world *world, __constant str
                                   const struct ray *ray_voxel, const struct span *span,
                                   real t_near) {
     const float per_mm = 1.0f / world->step_mm;
-    const mask hit = MASK(span->near < span->far);
+    // A short span may lie between two samples: then there is nothing to show either.
+    const integer first = sample_at(span->near, t_near, world->phase, per_mm);
+    const integer end = sample_at(span->far, t_near, world->phase, per_mm);
+    const mask runs = MASK(span->near < span->far) & MASK(first < end);
     struct cursor cursor;
-    cursor.first = CHOOSE((integer)(SAMPLE_NEVER),
-                          sample_at(span->near, t_near, world->phase, per_mm), hit);
-    cursor.end = CHOOSE((integer)(0), sample_at(span->far, t_near, world->phase, per_mm), hit);
+    cursor.first = CHOOSE((integer)(SAMPLE_NEVER), first, runs);
+    cursor.end = CHOOSE((integer)(0), end, runs);
+    cursor.next = cursor.first;
 
     const real t_first = t_near + world->phase * world->step_mm;
     const float4 shift = part->memory_from_voxel;
     const real zero = (real)(0.0f), one = (real)(1.0f);
-    const mask runs = MASK(cursor.first < cursor.end);
     cursor.ox = CHOOSE(one, ray_voxel->ox + t_first * ray_voxel->dx + shift.x, runs);
     cursor.oy = CHOOSE(one, ray_voxel->oy + t_first * ray_voxel->dy + shift.y, runs);
     cursor.oz = CHOOSE(one, ray_voxel->oz + t_first * ray_voxel->dz + shift.z, runs);
     cursor.dx = CHOOSE(zero, world->step_mm * ray_voxel->dx, runs);
     cursor.dy = CHOOSE(zero, world->step_mm * ray_voxel->dy, runs);
     cursor.dz = CHOOSE(zero, world->step_mm * ray_voxel->dz, runs);
-    cursor.next = cursor.first;
     return cursor;
 }
 

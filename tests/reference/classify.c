@@ -5,10 +5,12 @@
 #include <stdlib.h>
 
 // One column of control points at a value. A point is `width` numbers, its value first: so lie
-// pel_colour_point and pel_opacity_point. Of two points of one value the later one counts.
-static double interpolate(const double *points, int count, int width, int column, double value) {
+// pel_colour_point and pel_opacity_point. Of two points of one value the later one counts; a point
+// within `slack` is at the value.
+static double interpolate(const double *points, int count, int width, int column, double value,
+                          double slack) {
     int i = count - 1;
-    while (i > 0 && points[i * width] > value)
+    while (i > 0 && points[i * width] > value + slack)
         i--;
     const double *point = points + i * width, *next = point + width;
     if (i == count - 1 || value <= point[0])
@@ -17,12 +19,13 @@ static double interpolate(const double *points, int count, int width, int column
     return point[column] + share * (next[column] - point[column]);
 }
 
-static void evaluate(double rgba[4], const struct pel_transfer *transfer, double value) {
+static void evaluate(double rgba[4], const struct pel_transfer *transfer, double value,
+                     double slack) {
     const double *colours = (const double *)transfer->colours;
     for (int c = 0; c < 3; c++)
-        rgba[c] = interpolate(colours, transfer->colour_count, 4, 1 + c, value);
+        rgba[c] = interpolate(colours, transfer->colour_count, 4, 1 + c, value, slack);
     const double *opacities = (const double *)transfer->opacities;
-    rgba[3] = interpolate(opacities, transfer->opacity_count, 2, 1, value);
+    rgba[3] = interpolate(opacities, transfer->opacity_count, 2, 1, value, slack);
 }
 
 // The raw values an 8-bit type can hold; false for wider types, whose tables follow their points.
@@ -84,7 +87,7 @@ void reference_table_init(struct reference_table *table, const struct pel_transf
     double spacing = (table->high - table->low) / (table->count - 1);
     // A step that falls on an entry should not miss it by rounding of the entry's value.
     for (int j = 0; j < table->count; j++)
-        evaluate(table->entries[j], transfer, table->low + (j + 1e-9) * spacing);
+        evaluate(table->entries[j], transfer, table->low + j * spacing, 1e-9 * spacing);
 }
 
 void reference_table_finish(struct reference_table *table) {

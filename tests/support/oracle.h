@@ -27,6 +27,9 @@ struct pel_scene *oracle_scene(const struct oracle_picture *picture);
 // The file, its first row the top one as seen by the camera of oracle_scene; alpha is 1.
 struct pel_image *oracle_read(const struct oracle_picture *picture);
 
+// A channel, 0..1, as the picture's system stores it in a byte, over 255.
+double oracle_stored(const struct oracle_picture *picture, double channel);
+
 // The phase that puts our samples where the other system's are, for a pixel. A system that counts
 // samples from the far end needs one of its own for each ray: the one returned is a little less, as
 // our spans do not include their far end.
