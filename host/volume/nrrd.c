@@ -78,23 +78,40 @@ static bool read_header(Nrrd *nrrd, const char *path, struct coding *coding) {
     return good;
 }
 
-// Inflates the one data file of gzip encoding, which teem can too, but loses 60 KB of memory over
-// each damaged one. Returns voxels to free(), in the file's byte order.
-static void *inflate_data(const struct pel_nrrd_data *data, unsigned line_skip, size_t bytes) {
-    size_t file_bytes, start = data->offset;
+// True for what unpack_data reads: one compressed file. The rest - skipping to the end of
+// compressed data, and several compressed files - is left to teem.
+static bool is_packed(const struct pel_nrrd_data *data, const struct coding *coding) {
+    return (coding->encoding == nrrdEncodingGzip || coding->encoding == nrrdEncodingBzip2) &&
+           data->path && coding->byte_skip >= 0;
+}
+
+// Decompresses the one data file. teem can too, but loses 60 KB of memory over each damaged gzip
+// and 3.6 MB over each damaged bzip2 stream. Returns `bytes` of voxels to free(), in the file's
+// byte order. No more is allocated than `limit`.
+static void *unpack_data(const struct pel_nrrd_data *data, const struct coding *coding,
+                         size_t bytes, size_t limit) {
+    size_t skip = (size_t)coding->byte_skip, file_bytes, start = data->offset;
+    if (skip > limit - bytes) {
+        pel_fail(PEL_ERROR_FORMAT, "the voxels start at byte %zu of at most %zu", skip, limit);
+        return NULL;
+    }
     char *file = pel_file_read(data->path, PTRDIFF_MAX, &file_bytes);
-    void *block = file ? pel_allocate_voxels(bytes) : NULL;
+    char *block = file ? pel_allocate_voxels(skip + bytes) : NULL;
     bool good = block != NULL;
-    for (unsigned i = 0; good && i < line_skip; i++) {
+    for (unsigned i = 0; good && i < coding->line_skip; i++) {
         const char *end = memchr(file + start, '\n', file_bytes - start);
-        good = end || pel_fail(PEL_ERROR_FORMAT, "ends before the %u lines to skip", line_skip);
+        good = end ||
+               pel_fail(PEL_ERROR_FORMAT, "ends before the %u lines to skip", coding->line_skip);
         start = end ? (size_t)(end - file) + 1 : start;
     }
-    if (!good || !pel_inflate(block, bytes, file + start, file_bytes - start)) {
-        free(block);
-        block = NULL;
-    }
+    good = good && (coding->encoding == nrrdEncodingGzip ? pel_inflate : pel_bunzip2)(
+                       block, skip + bytes, file + start, file_bytes - start);
     free(file);
+    if (!good) {
+        free(block);
+        return NULL;
+    }
+    memmove(block, block + skip, bytes);
     return block;
 }
 
@@ -360,17 +377,20 @@ static struct pel_volume *read_volume(Nrrd *header, struct pel_nrrd_data *data, 
         !pel_select_channel(&selection, name, axis_size(header, axes.channel),
                             axes.channel < 0 ? 0 : strides[axes.channel], options))
         return NULL;
-    bool inflate = coding.encoding == nrrdEncodingGzip && data->path && coding.byte_skip == 0;
-    void *block = inflate ? inflate_data(data, coding.line_skip, bytes) : read_data(path, bytes);
-    selection.swap = inflate && coding.swap;
+    bool packed = is_packed(data, &coding);
+    void *block = packed ? unpack_data(data, &coding, bytes, limit) : read_data(path, bytes);
+    selection.swap = packed && coding.swap;
     struct pel_volume *volume = block ? pel_volume_select(name, &selection, block) : NULL;
     free(block);
     if (volume && !place(volume, header, &axes)) {
         pel_volume_destroy(volume);
         return NULL;
     }
-    if (volume && header->sampleUnits)
-        snprintf(volume->unit, sizeof volume->unit, "%s", header->sampleUnits);
+    if (volume && header->sampleUnits) {
+        // The unit stands as it is; some writers quote it as axis units are.
+        const char *unit = header->sampleUnits + (header->sampleUnits[0] == '"');
+        snprintf(volume->unit, sizeof volume->unit, "%.*s", (int)strcspn(unit, "\""), unit);
+    }
     return volume;
 }
 

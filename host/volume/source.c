@@ -2,6 +2,7 @@
 // size.
 #include "volume/source.h"
 
+#include <bzlib.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,15 +54,25 @@ size_t pel_source_read_some(struct pel_source *source, void *bytes, size_t count
     return done;
 }
 
+// Sets the sentence when decompression failed for another reason than the end of the file.
+static bool fail_if_damaged(struct pel_source *source) {
+    int code = Z_OK;
+    const char *message = gzerror(source->stream, &code);
+    if (code != Z_DATA_ERROR)
+        return false;
+    // zlib puts its own copy of the path and ": " before the reason.
+    const char *colon = strrchr(message, ':');
+    pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged (%s)",
+             colon && colon[1] ? colon + 2 : message);
+    return true;
+}
+
 bool pel_source_read(struct pel_source *source, void *bytes, size_t count) {
     size_t before = source->position;
     if (pel_source_read_some(source, bytes, count) == count)
         return true;
-    int code = Z_OK;
-    gzerror(source->stream, &code);
-    if (code == Z_DATA_ERROR)
-        return pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged after %zu bytes",
-                        source->position);
+    if (fail_if_damaged(source))
+        return false;
     return pel_fail(PEL_ERROR_FORMAT, "ends after %zu bytes where %zu are needed", source->position,
                     before + count);
 }
@@ -80,9 +91,7 @@ bool pel_source_finish(struct pel_source *source, bool *more) {
     char byte;
     int got = gzread(source->stream, &byte, 1);
     *more = got == 1;
-    if (got < 0)
-        return pel_fail(PEL_ERROR_FORMAT, "compressed data has a wrong checksum");
-    return true;
+    return got >= 0 || !fail_if_damaged(source);
 }
 
 char *pel_source_head(const char *path, size_t limit, size_t *bytes) {
@@ -179,6 +188,35 @@ bool pel_inflate(void *out, size_t out_bytes, const void *in, size_t in_bytes) {
     }
     inflateEnd(&stream);
     if (status == Z_DATA_ERROR || status == Z_NEED_DICT)
+        return pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged after %zu bytes",
+                        out_bytes - out_left);
+    if (out_left > 0)
+        return pel_fail(PEL_ERROR_FORMAT, "compressed data ends after %zu of %zu bytes",
+                        out_bytes - out_left, out_bytes);
+    return true;
+}
+
+bool pel_bunzip2(void *out, size_t out_bytes, const void *in, size_t in_bytes) {
+    bz_stream stream = {.next_in = (char *)in, .next_out = out};
+    if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK)
+        return pel_fail(PEL_ERROR_MEMORY, "cannot start decompression");
+    size_t in_left = in_bytes, out_left = out_bytes;
+    int status = BZ_OK;
+    // bzip2 does not mind standing still, so the loop has to see that it does.
+    for (bool moved = true; status == BZ_OK && moved;) {
+        unsigned in_part = (unsigned)(in_left < CHUNK ? in_left : CHUNK);
+        unsigned out_part = (unsigned)(out_left < CHUNK ? out_left : CHUNK);
+        stream.avail_in = in_part;
+        stream.avail_out = out_part;
+        status = BZ2_bzDecompress(&stream);
+        in_left -= in_part - stream.avail_in;
+        out_left -= out_part - stream.avail_out;
+        moved = stream.avail_in != in_part || stream.avail_out != out_part;
+    }
+    BZ2_bzDecompressEnd(&stream);
+    if (status == BZ_MEM_ERROR)
+        return pel_fail(PEL_ERROR_MEMORY, "no memory to decompress");
+    if (status != BZ_OK && status != BZ_STREAM_END)
         return pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged after %zu bytes",
                         out_bytes - out_left);
     if (out_left > 0)
