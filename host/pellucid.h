@@ -100,6 +100,7 @@ struct pel_volume {
     double slope, intercept; // value in the file's own unit = slope * raw + intercept
     char unit[16];           // of the values, such as "HU"; "" when unknown
     char space[64];          // where the placement came from, such as "sform (scanner)"
+    uint64_t serial;         // set by pel_volume_create and never reused: tells volumes apart
     bool labels;             // values are labels: interpolating them makes no sense
     void *voxels;            // owned; i fastest, then j, then k; no padding. In PEL_VOXEL_F32
                              // an absent voxel (NaN or Inf in the file) is NaN
@@ -195,7 +196,8 @@ struct pel_generate_options {
 // Kinds: "sphere" (signed distance field), "box", "shells", "c60" (electron density of a
 // buckyball from its 60 atom positions, after Romero 2009), "hydrogen" (an orbital),
 // "marschner-lobb" (Marschner & Lobb 1994), "shepp-logan" (the 3-D head), "head-ct" and "head-mri"
-// (one synthetic head, the MRI displaced by a known rigid transform). The list ends with NULL.
+// (one synthetic head, the MRI displaced by a known rigid transform), "head-pair" (the CT, or with
+// `second` the MRI). The list ends with NULL.
 PEL_API const char *const *pel_generator_names(void);
 PEL_API struct pel_volume *pel_volume_generate(const char *kind,
                                                const struct pel_generate_options *options);
@@ -274,10 +276,11 @@ PEL_API bool pel_camera_fit(struct pel_camera *camera, const char *view,
 // ---- Rigid transforms --------------------------------------------------------------------------
 
 // Reads a rigid transform from world to world (RAS): an ITK .tfm (text, Euler3D, VersorRigid3D or
-// affine), an FSL FLIRT .mat, or a plain 4x4 of numbers. ITK files map points of the fixed image to
-// the moving one in LPS, so the result is their inverse in RAS: it moves the moving volume onto the
-// fixed. FSL's .mat maps between scaled voxel spaces and needs both volumes (`moving`, `fixed`);
-// ARGUMENT if one is missing. FORMAT if the result is not a rotation and translation.
+// affine; or the binary .mat of ANTs), an FSL FLIRT .mat, or a plain 4x4 of numbers. ITK files map
+// points of the fixed image to the moving one in LPS, so the result is their inverse in RAS: it
+// moves the moving volume onto the fixed. FSL's .mat maps between scaled voxel spaces and needs
+// both volumes (`moving`, `fixed`); ARGUMENT if one is missing, but a .mat given neither is taken
+// as a plain 4x4, with a warning. FORMAT if the result is not a rotation and translation.
 PEL_API bool pel_transform_load(struct pel_matrix *world_from_world, const char *path,
                                 const struct pel_volume *moving, const struct pel_volume *fixed);
 
@@ -458,6 +461,10 @@ PEL_API void pel_image_destroy(struct pel_image *image);
 // end. The path "-" writes PPM to the standard output.
 PEL_API bool pel_image_save(const struct pel_image *image, const char *path,
                             const struct pel_image_options *options);
+
+// Tells before a long computation whether a picture could be saved there: ARGUMENT when the
+// extension is none of those above, FILE when the folder does not exist or cannot be written.
+PEL_API bool pel_image_check_path(const char *path);
 
 #ifdef __cplusplus
 }

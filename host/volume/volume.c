@@ -2,6 +2,7 @@
 #include "volume/volume.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,6 +67,9 @@ void pel_volume_mark_absent(struct pel_volume *volume) {
             voxels[i] = NAN;
 }
 
+// Serial numbers start at 1. Like the warning callback this is one per process.
+static atomic_uint_fast64_t last_serial;
+
 struct pel_volume *pel_volume_create(const char *name, const int dims[3],
                                      enum pel_voxel_type type) {
     size_t bytes;
@@ -80,6 +84,7 @@ struct pel_volume *pel_volume_create(const char *name, const int dims[3],
         .type = type,
         .world_from_voxel = pel_matrix_identity(),
         .slope = 1,
+        .serial = atomic_fetch_add(&last_serial, 1) + 1,
         .voxels = pel_allocate_voxels(bytes),
     };
     if (!volume->name || !volume->voxels) {

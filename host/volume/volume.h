@@ -16,6 +16,8 @@ bool pel_volume_check_size(const int64_t dims[3], enum pel_voxel_type type, size
 // Replaces Inf by NaN in a float volume: both are absent.
 void pel_volume_mark_absent(struct pel_volume *volume);
 
+// The readers. Options are never NULL here. Their sentences leave the path out, because
+// pel_volume_load puts it before them.
 struct pel_volume *pel_raw_load(const char *path, const struct pel_load_options *options);
 struct pel_volume *pel_nrrd_load(const char *path, const struct pel_load_options *options);
 struct pel_volume *pel_nifti_load(const char *path, const struct pel_load_options *options);
@@ -23,6 +25,10 @@ struct pel_volume *pel_metaimage_load(const char *path, const struct pel_load_op
 struct pel_volume *pel_tiff_load(const char *path, const struct pel_load_options *options);
 struct pel_volume *pel_pvm_load(const char *path, const struct pel_load_options *options);
 struct pel_volume *pel_dicom_load(const char *path, const struct pel_load_options *options);
+
+// The path of the JSON file that describes a raw file, to free(); NULL, without a sentence, when
+// there is none.
+char *pel_raw_sidecar(const char *path);
 
 bool pel_raw_save(const struct pel_volume *volume, const char *path);
 bool pel_nrrd_save(const struct pel_volume *volume, const char *path);

@@ -115,6 +115,17 @@ size_t pel_element_bytes(enum pel_element element) {
     return element_bytes[element];
 }
 
+enum pel_wide_type pel_element_wide(enum pel_element element) {
+    return (enum pel_wide_type)(element - PEL_ELEMENT_I32);
+}
+
+bool pel_little_endian(void) {
+    const uint16_t one = 1;
+    unsigned char first;
+    memcpy(&first, &one, 1);
+    return first == 1;
+}
+
 void pel_swap_bytes(void *values, size_t count, size_t bytes) {
     unsigned char *element = values;
     for (size_t i = 0; i < count; i++, element += bytes) {
@@ -136,7 +147,8 @@ static void gather(const struct pel_selection *selection, const unsigned char *b
     for (size_t k = 0; k < (size_t)selection->dims[2]; k++) {
         for (size_t j = 0; j < (size_t)selection->dims[1]; j++) {
             const unsigned char *from =
-                block + bytes * (k * selection->stride[2] + j * selection->stride[1]);
+                block +
+                bytes * (selection->first + k * selection->stride[2] + j * selection->stride[1]);
             if (dense) {
                 memcpy(out, from, bytes * row * components);
                 out += bytes * row * components;
@@ -150,6 +162,35 @@ static void gather(const struct pel_selection *selection, const unsigned char *b
                            bytes);
         }
     }
+}
+
+bool pel_select_channel(struct pel_selection *selection, const char *name, int64_t channels,
+                        size_t stride, const struct pel_load_options *options) {
+    selection->components = 1;
+    if ((channels == 3 || channels == 4) && selection->element == PEL_ELEMENT_U8 &&
+        !options->split_channels) {
+        selection->components = (int)channels;
+        selection->component_stride = stride;
+        return true;
+    }
+    if (options->channel < 0 || options->channel >= channels)
+        return pel_fail(PEL_ERROR_ARGUMENT, "no channel %d, the file has %lld", options->channel,
+                        (long long)channels);
+    if (channels > 1 && options->channel == 0 && !options->split_channels)
+        pel_warn("%s: %lld channels, only the first is read", name, (long long)channels);
+    selection->first += (size_t)options->channel * stride;
+    return true;
+}
+
+bool pel_select_time(struct pel_selection *selection, const char *name, int64_t steps,
+                     size_t stride, const struct pel_load_options *options) {
+    if (options->time < 0 || options->time >= steps)
+        return pel_fail(PEL_ERROR_ARGUMENT, "no time step %d, the file has %lld", options->time,
+                        (long long)steps);
+    if (steps > 1 && options->time == 0)
+        pel_warn("%s: %lld time steps, only the first is read", name, (long long)steps);
+    selection->first += (size_t)options->time * stride;
+    return true;
 }
 
 struct pel_volume *pel_volume_select(const char *name, const struct pel_selection *selection,
@@ -171,8 +212,7 @@ struct pel_volume *pel_volume_select(const char *name, const struct pel_selectio
         if (selection->swap)
             pel_swap_bytes(values, count, bytes);
         struct pel_volume *volume = pel_volume_from_wide(
-            name, selection->dims,
-            (enum pel_wide_type)(selection->element - PEL_ELEMENT_I32 + PEL_WIDE_I32), values);
+            name, selection->dims, pel_element_wide(selection->element), values);
         free(values);
         return volume;
     }

@@ -34,22 +34,38 @@ enum pel_element {
 
 size_t pel_element_bytes(enum pel_element element);
 
+// The wide type of an element that no volume can have.
+enum pel_wide_type pel_element_wide(enum pel_element element);
+
+// Whether this machine is.
+bool pel_little_endian(void);
+
 // Reverses the bytes of each of `count` elements in place.
 void pel_swap_bytes(void *values, size_t count, size_t element_bytes);
 
-// One volume within a block of voxels that holds several channels or time steps.
+// One volume within a block of numbers that may hold several channels and time steps.
 struct pel_selection {
     int dims[3];
     enum pel_element element; //
     size_t stride[3];         // elements from one voxel to the next along i, j, k
+    size_t first;             // element of voxel (0,0,0)
     int components;           // kept per voxel, `component_stride` apart: 1, or 3 and 4 of uint8,
                               // which become RGB8 and RGBA8
     size_t component_stride;  //
     bool swap;                // the block has the other byte order
 };
 
-// Copies a selection out of `block`, whose first element is voxel (0,0,0); no wider than the caller
-// made sure the block is.
+// Decides what becomes of `channels` values per voxel, `stride` elements apart: 3 or 4 of uint8 are
+// a colour unless options->split_channels is set, and of others options->channel is taken, with a
+// warning when nobody asked. Fails (ARGUMENT) when there is no such channel.
+bool pel_select_channel(struct pel_selection *selection, const char *name, int64_t channels,
+                        size_t stride, const struct pel_load_options *options);
+
+// The same for options->time of `steps` time steps.
+bool pel_select_time(struct pel_selection *selection, const char *name, int64_t steps,
+                     size_t stride, const struct pel_load_options *options);
+
+// Copies a selection out of `block`, which the caller made sure is large enough.
 struct pel_volume *pel_volume_select(const char *name, const struct pel_selection *selection,
                                      const void *block);
 

@@ -1,0 +1,155 @@
+// command_info.c - `pellucid info`: what is in volume and scene files, as Pellucid would load them.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/describe.h"
+#include "cli/options.h"
+#include "cli/report.h"
+
+enum { KEY_JSON = CLI_KEY_COMMAND };
+
+struct arguments {
+    char **files; // borrowed from the command line
+    int file_count;
+    bool json;
+    struct pel_load_options load;
+};
+
+static const struct argp_option options[] = {
+    {"json", KEY_JSON, NULL, 0, "Write a JSON array with an object for each file", 0},
+    {0},
+};
+
+static error_t parse(int key, char *argument, struct argp_state *state) {
+    (void)argument;
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case KEY_JSON:
+        arguments->json = true;
+        return 0;
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &arguments->load;
+        return 0;
+    case ARGP_KEY_ARGS:
+        arguments->files = state->argv + state->next;
+        arguments->file_count = state->argc - state->next;
+        return 0;
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "a file is needed");
+        return PEL_ERROR_ARGUMENT;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const char *const mixing_names[] = {
+    [PEL_MIX_SUM] = "sum",
+    [PEL_MIX_OVER] = "over",
+};
+
+static void print_scene(const struct pel_scene *scene) {
+    const struct pel_camera *camera = &scene->camera;
+    printf("  %-12s %d x %d pixels, mixing %s, step %.6g\n", "picture", scene->render.width,
+           scene->render.height, mixing_names[scene->render.mixing], scene->render.step);
+    printf("  %-12s from %.6g, %.6g, %.6g to %.6g, %.6g, %.6g mm\n", "camera", camera->eye[0],
+           camera->eye[1], camera->eye[2], camera->target[0], camera->target[1], camera->target[2]);
+    struct pel_bounds bounds;
+    if (pel_scene_bounds(scene, &bounds))
+        printf("  %-12s %.6g, %.6g, %.6g to %.6g, %.6g, %.6g mm\n", "bounds", bounds.low[0],
+               bounds.low[1], bounds.low[2], bounds.high[0], bounds.high[1], bounds.high[2]);
+    for (int i = 0; i < scene->instance_count; i++) {
+        const struct pel_instance *instance = &scene->instances[i];
+        printf("  %-12s %d '%s': %s%s\n", "volume", i, instance->name,
+               scene->volumes[instance->volume]->name, instance->hidden ? ", hidden" : "");
+        describe_print(scene->volumes[instance->volume], &scene->statistics[instance->volume], 4);
+    }
+}
+
+static json_t *scene_json(const struct pel_scene *scene) {
+    json_t *object = json_object();
+    json_object_set_new(object, "width", json_integer(scene->render.width));
+    json_object_set_new(object, "height", json_integer(scene->render.height));
+    json_object_set_new(object, "mixing", json_string(mixing_names[scene->render.mixing]));
+    json_object_set_new(object, "step", report_number(scene->render.step));
+    json_object_set_new(object, "eye", report_numbers(scene->camera.eye, 3));
+    json_object_set_new(object, "target", report_numbers(scene->camera.target, 3));
+    json_t *list = json_array();
+    for (int i = 0; i < scene->instance_count; i++) {
+        const struct pel_instance *instance = &scene->instances[i];
+        json_t *volume =
+            describe_json(scene->volumes[instance->volume], &scene->statistics[instance->volume]);
+        json_object_set_new(volume, "instance", report_text(instance->name));
+        json_object_set_new(volume, "hidden", json_boolean(instance->hidden));
+        json_array_append_new(list, volume);
+    }
+    json_object_set_new(object, "volumes", list);
+    return object;
+}
+
+// Both append to `array` or print, and return the exit status.
+static int show_scene(const char *path, json_t *array) {
+    struct pel_scene *scene = pel_scene_load(path, NULL, 0);
+    if (!scene)
+        return cli_fail_library();
+    if (array) {
+        json_t *object = scene_json(scene);
+        json_object_set_new(object, "file", report_text(path));
+        json_array_append_new(array, object);
+    } else {
+        printf("%s\n", path);
+        print_scene(scene);
+    }
+    pel_scene_destroy(scene);
+    return PEL_OK;
+}
+
+static int show_volume(const char *path, const struct pel_load_options *load, json_t *array) {
+    struct pel_volume *volume = pel_volume_load(path, load);
+    if (!volume)
+        return cli_fail_library();
+    struct pel_statistics statistics;
+    pel_volume_measure(volume, &statistics);
+    if (array) {
+        json_t *object = describe_json(volume, &statistics);
+        json_object_set_new(object, "file", report_text(path));
+        json_array_append_new(array, object);
+    } else {
+        printf("%s\n", path);
+        describe_print(volume, &statistics, 2);
+    }
+    pel_volume_destroy(volume);
+    return PEL_OK;
+}
+
+int command_info(int argc, char **argv) {
+    static const struct argp argp = {
+        .options = options,
+        .parser = parse,
+        .args_doc = "FILE...",
+        .doc = "Says what is in volume and scene files: size, type, place in the body (the axes' "
+               "letters say where i, j and k lead: R right, A anterior, S superior), and values, "
+               "with a histogram on a logarithmic scale.\v"
+               "Files that cannot be read are reported, and the others shown. Examples:\n\n"
+               "  pellucid info head.nii.gz\n"
+               "  pellucid info scene.json --json\n"
+               "  pellucid info dump.bin --raw dims=64x64x32,type=uint16\n",
+        .children = cli_load_children,
+    };
+    struct arguments arguments = {0};
+    error_t status = argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    if (status)
+        return status;
+    json_t *array = arguments.json ? json_array() : NULL;
+    for (int i = 0; i < arguments.file_count; i++) {
+        const char *path = arguments.files[i];
+        int result = cli_is_scene(path) ? show_scene(path, array)
+                                        : show_volume(path, &arguments.load, array);
+        if (!status)
+            status = result;
+    }
+    if (!array)
+        return report_finish(status);
+    int written = report_json(array);
+    return status ? status : written;
+}

@@ -1,0 +1,205 @@
+// command_render.c - `pellucid render`: a scene or volumes in, a picture out.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/render_options.h"
+#include "cli/report.h"
+
+// What one run makes, and how long its parts took.
+struct run {
+    struct pel_scene *scene;
+    struct pel_renderer *renderer;
+    struct pel_image *image;
+    struct pel_render_statistics statistics;
+    char picture[4096];
+    double load_ms, save_ms, total_ms;
+};
+
+static struct pel_scene *load(const struct render_options *options) {
+    const char *const *overrides = (const char *const *)options->overrides.texts;
+    if (options->input_count == 1 && cli_is_scene(options->inputs[0]))
+        return pel_scene_load(options->inputs[0], overrides, options->overrides.count);
+    return pel_scene_from_files((const char *const *)options->inputs, options->input_count,
+                                overrides, options->overrides.count);
+}
+
+// The first input's name in the working directory with .png in place of its extension:
+// "scans/head.nii.gz" gives "head.png", and so does a folder of slices "scans/head/". The letters
+// of a glob pattern are left out.
+static void default_picture(char *picture, size_t bytes, const char *input) {
+    char name[256];
+    size_t length = strlen(input);
+    while (length > 1 && input[length - 1] == '/')
+        length--;
+    size_t begin = length;
+    while (begin > 0 && input[begin - 1] != '/')
+        begin--;
+    snprintf(name, sizeof name, "%.*s", (int)(length - begin), input + begin);
+    char *dot = strrchr(name, '.');
+    if (dot && dot > name && strcasecmp(dot, ".gz") == 0) {
+        *dot = '\0';
+        dot = strrchr(name, '.');
+    }
+    if (dot && dot > name)
+        *dot = '\0';
+    size_t end = 0;
+    for (const char *c = name; *c; c++)
+        if (!strchr("*?[]", *c))
+            name[end++] = *c;
+    name[end] = '\0';
+    snprintf(picture, bytes, "%s.png", end ? name : "picture");
+}
+
+static bool is_same_file(const char *a, const char *b) {
+    struct stat status_a, status_b;
+    return stat(a, &status_a) == 0 && stat(b, &status_b) == 0 &&
+           status_a.st_dev == status_b.st_dev && status_a.st_ino == status_b.st_ino;
+}
+
+// Decides where the picture goes, before any work is done for it.
+static int choose_picture(struct run *run, const struct render_options *options) {
+    if (options->output)
+        snprintf(run->picture, sizeof run->picture, "%s", options->output);
+    else if (run->scene->output.path[0])
+        snprintf(run->picture, sizeof run->picture, "%s", run->scene->output.path);
+    else
+        default_picture(run->picture, sizeof run->picture, options->inputs[0]);
+    if (options->json && strcmp(run->picture, "-") == 0)
+        return cli_fail(PEL_ERROR_ARGUMENT, "--json and the picture both want standard output");
+    for (int i = 0; i < options->input_count; i++)
+        if (is_same_file(run->picture, options->inputs[i]))
+            return cli_fail(PEL_ERROR_ARGUMENT,
+                            "%s: the picture would overwrite its input; name "
+                            "another file with -o",
+                            run->picture);
+    return pel_image_check_path(run->picture) ? PEL_OK : cli_fail_library();
+}
+
+static int render(struct run *run, const struct render_options *options) {
+    double begin_ms = report_clock_ms();
+    run->scene = load(options);
+    run->load_ms = report_clock_ms() - begin_ms;
+    if (!run->scene)
+        return cli_fail_library();
+    int status = choose_picture(run, options);
+    if (status)
+        return status;
+    struct progress progress;
+    progress_begin(&progress, options->quiet);
+    run->renderer = pel_renderer_create(&options->renderer);
+    if (run->renderer)
+        run->image = pel_renderer_render(
+            run->renderer, run->scene,
+            &(struct pel_render_options){.progress = progress_update, .user = &progress},
+            &run->statistics);
+    progress_end(&progress);
+    return run->image ? PEL_OK : cli_fail_library();
+}
+
+// The camera as the scene format writes it; memory to free(), or NULL.
+static char *camera_text(const struct pel_camera *camera) {
+    json_t *object = json_object();
+    json_object_set_new(object, "eye", report_numbers(camera->eye, 3));
+    json_object_set_new(object, "target", report_numbers(camera->target, 3));
+    json_object_set_new(object, "up", report_numbers(camera->up, 3));
+    if (camera->orthographic) {
+        json_object_set_new(object, "orthographic", json_true());
+        json_object_set_new(object, "height", report_number(camera->height_mm));
+    } else {
+        json_object_set_new(object, "fov", report_number(camera->fov_deg));
+    }
+    json_object_set_new(object, "shift", report_numbers(camera->shift, 2));
+    char *text = json_dumps(object, JSON_REAL_PRECISION(12));
+    json_decref(object);
+    return text;
+}
+
+// The picture says how it was made, so that it can be made again.
+static int save(struct run *run) {
+    double begin_ms = report_clock_ms();
+    char software[64];
+    snprintf(software, sizeof software, "Pellucid %s", pel_version());
+    char *camera = camera_text(&run->scene->camera);
+    const char *const texts[][2] = {
+        {"Software", software},
+        {"scene", run->scene->text ? run->scene->text : ""},
+        {"camera", camera ? camera : ""},
+        {"device", run->statistics.device},
+        {"driver", run->statistics.driver},
+    };
+    struct pel_image_options options = {
+        .depth = run->scene->output.depth,
+        .premultiplied = run->scene->output.premultiplied,
+        .texts = texts,
+        .text_count = sizeof texts / sizeof *texts,
+    };
+    bool good = pel_image_save(run->image, run->picture, &options);
+    free(camera);
+    run->save_ms = report_clock_ms() - begin_ms;
+    return good ? PEL_OK : cli_fail_library();
+}
+
+static int print_json(const struct run *run) {
+    const struct pel_render_statistics *statistics = &run->statistics;
+    json_t *object = json_object();
+    json_object_set_new(object, "picture", report_text(run->picture));
+    json_object_set_new(object, "width", json_integer(run->image->width));
+    json_object_set_new(object, "height", json_integer(run->image->height));
+    json_object_set_new(object, "device", report_text(statistics->device));
+    json_object_set_new(object, "driver", report_text(statistics->driver));
+    json_object_set_new(object, "reader", json_string(report_reader(statistics->reader)));
+    json_object_set_new(object, "lanes", json_integer(statistics->lanes));
+    json_object_set_new(object, "work_group", json_integer(statistics->work_group));
+    json_object_set_new(object, "rays", json_integer((json_int_t)statistics->rays));
+    json_object_set_new(object, "samples", json_integer((json_int_t)statistics->samples));
+    json_object_set_new(object, "device_bytes", json_integer((json_int_t)statistics->device_bytes));
+    json_object_set_new(object, "uploaded_bytes",
+                        json_integer((json_int_t)statistics->uploaded_bytes));
+    const struct {
+        const char *name;
+        double ms;
+    } times[] = {
+        {"load_ms", run->load_ms},
+        {"prepare_ms", statistics->prepare_ms},
+        {"build_ms", statistics->build_ms},
+        {"upload_ms", statistics->upload_ms},
+        {"render_ms", statistics->render_ms},
+        {"download_ms", statistics->download_ms},
+        {"save_ms", run->save_ms},
+        {"total_ms", run->total_ms},
+    };
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++)
+        json_object_set_new(object, times[i].name, report_number(times[i].ms));
+    return report_json(object);
+}
+
+int command_render(int argc, char **argv) {
+    double begin_ms = report_clock_ms();
+    struct render_options options;
+    struct run run = {0};
+    int status = render_options_parse(&options, argc, argv);
+    if (status)
+        goto done;
+    cli_show_warnings(!options.quiet);
+    status = render(&run, &options);
+    if (!status)
+        status = save(&run);
+    run.total_ms = report_clock_ms() - begin_ms;
+    if (!status && options.json)
+        status = print_json(&run);
+    else if (!status && !options.quiet && isatty(STDERR_FILENO) && strcmp(run.picture, "-") != 0)
+        fprintf(stderr, "pellucid: %s: %d x %d pixels in %.2f s on %s\n", run.picture,
+                run.image->width, run.image->height, run.total_ms / 1e3, run.statistics.device);
+done:
+    pel_image_destroy(run.image);
+    pel_renderer_destroy(run.renderer);
+    pel_scene_destroy(run.scene);
+    render_options_finish(&options);
+    return status;
+}

@@ -1,0 +1,25 @@
+// overrides.h - a growing list of "key=value" strings for pel_scene_load.
+#ifndef PEL_CLI_OVERRIDES_H
+#define PEL_CLI_OVERRIDES_H
+
+#include "pellucid.h"
+
+// Starts as {0}; overrides_finish frees what it holds.
+struct overrides {
+    char **texts; // owned, and each of them
+    int count;
+};
+
+// Appends "key=value". The value is taken as it is (JSON or a plain word), or as text whatever it
+// looks like: a file may be called "7" or "null". Both end the program when memory runs out.
+void overrides_add(struct overrides *overrides, const char *key, const char *value);
+void overrides_add_text(struct overrides *overrides, const char *key, const char *value);
+
+// Appends what --camera says: a view's name, or "key=value,key=value" with keys of the scene's
+// camera and values that may be numbers with commas between them: "eye=0,-400,0,fov=30".
+// False, with a message, when it is neither.
+bool overrides_add_camera(struct overrides *overrides, const char *text);
+
+void overrides_finish(struct overrides *overrides);
+
+#endif

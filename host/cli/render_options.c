@@ -1,0 +1,249 @@
+// render_options.c - the options of `pellucid render`.
+#include "cli/render_options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/options.h"
+
+enum {
+    KEY_SIZE = CLI_KEY_COMMAND,
+    KEY_CAMERA,
+    KEY_MIX,
+    KEY_STEP,
+    KEY_FILTER,
+    KEY_TERMINATION,
+    KEY_PHASE,
+    KEY_DENSITY,
+    KEY_BACKGROUND,
+    KEY_TRANSFER,
+    KEY_READER,
+    KEY_LANES,
+    KEY_WORK_GROUP,
+    KEY_DEVICE,
+    KEY_DEPTH,
+    KEY_ALPHA,
+    KEY_SET,
+    KEY_JSON,
+};
+
+static const struct argp_option argp_options[] = {
+    {0, 0, NULL, 0, "The picture:", 1},
+    {"output", 'o', "FILE", 0,
+     "Where the picture goes: .png, .tif (32-bit float) or .ppm; - writes PPM to standard output "
+     "(default: the scene's own, else the first input's name with .png)",
+     0},
+    {"size", KEY_SIZE, "WxH", 0, "Pixels, such as 640x480", 0},
+    {"depth", KEY_DEPTH, "8|16", 0, "Bits of a PNG's channels", 0},
+    {"alpha", KEY_ALPHA, "straight|premultiplied", 0, "How a PNG's colours are written", 0},
+    {"background", KEY_BACKGROUND, "COLOUR", 0,
+     "A name such as white or none, #rrggbb, or r,g,b[,a] from 0 to 1", 0},
+    {0, 0, NULL, 0, "The view:", 2},
+    {"camera", KEY_CAMERA, "VIEW|KEY=VALUE,...", 0,
+     "anterior, posterior, left, right, superior, inferior or oblique; or keys of the scene's "
+     "camera, such as eye=0,-400,0,target=0,0,0,fov=30",
+     0},
+    {0, 0, NULL, 0, "The volumes, all of them:", 3},
+    {"transfer", KEY_TRANSFER, "PRESET|FILE", 0, "Transfer function", 0},
+    {"density", KEY_DENSITY, "X", 0, "Multiplies the extinction", 0},
+    {"filter", KEY_FILTER, "linear|nearest", 0, "Interpolation between voxels", 0},
+    {0, 0, NULL, 0, "Rendering:", 4},
+    {"mix", KEY_MIX, "sum|over", 0, "How overlapping volumes share a sample", 0},
+    {"step", KEY_STEP, "N", 0, "Distance of samples, in voxels of the finest volume", 0},
+    {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
+    {"termination", KEY_TERMINATION, "X", 0, "End a ray once its opacity exceeds this; 1 for never",
+     0},
+    {0, 0, NULL, 0, "The device:", 5},
+    {"device", KEY_DEVICE, "D", 0,
+     "Number, part of the name, or type (gpu, cpu); 'pellucid devices' lists them", 0},
+    {"reader", KEY_READER, "auto|buffer|image", 0, "How kernels read voxels", 0},
+    {"lanes", KEY_LANES, "1|4|8|16", 0, "Rays per work-item", 0},
+    {"work-group", KEY_WORK_GROUP, "N", 0, "Work-items per work-group", 0},
+    {0, 0, NULL, 0, "Everything else:", 6},
+    {"set", KEY_SET, "KEY=VALUE", 0,
+     "Set any key of the scene, such as volumes.0.density=0.2; may be repeated", 0},
+    {"json", KEY_JSON, NULL, 0, "Write timings and what was used as JSON to standard output", 0},
+    {"quiet", 'q', NULL, 0, "Say nothing but errors", 0},
+    {0},
+};
+
+static bool add_number(struct render_options *options, const char *option, const char *key,
+                       const char *text) {
+    double value;
+    if (!cli_number(option, text, &value))
+        return false;
+    // Printed anew, because strtod reads more spellings than JSON has.
+    char number[32];
+    snprintf(number, sizeof number, "%.17g", value);
+    overrides_add(&options->overrides, key, number);
+    return true;
+}
+
+static bool add_size(struct render_options *options, const char *text) {
+    int size[2];
+    if (!cli_sizes("--size", text, 2, size))
+        return false;
+    char list[32];
+    snprintf(list, sizeof list, "[%d,%d]", size[0], size[1]);
+    overrides_add(&options->overrides, "render.size", list);
+    return true;
+}
+
+static bool add_integer(struct render_options *options, const char *option, const char *key,
+                        const char *text) {
+    int value;
+    if (!cli_integer(option, text, 0, &value))
+        return false;
+    overrides_add(&options->overrides, key, text);
+    return true;
+}
+
+static void add_background(struct render_options *options, const char *text) {
+    char list[128];
+    snprintf(list, sizeof list, "[%s]", text);
+    if (strchr(text, ','))
+        overrides_add(&options->overrides, "background", list);
+    else
+        overrides_add_text(&options->overrides, "background", text);
+}
+
+static bool add_set(struct render_options *options, const char *text) {
+    const char *equals = strchr(text, '=');
+    if (!equals || equals == text) {
+        cli_fail(PEL_ERROR_ARGUMENT, "--set: '%s' is not of the form key=value", text);
+        return false;
+    }
+    char key[256];
+    snprintf(key, sizeof key, "%.*s", (int)(equals - text), text);
+    overrides_add(&options->overrides, key, equals + 1);
+    return true;
+}
+
+static bool read_reader(const char *text, enum pel_reader *reader) {
+    static const char *const names[] = {"auto", "buffer", "image"};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            *reader = (enum pel_reader)i;
+            return true;
+        }
+    }
+    cli_fail(PEL_ERROR_ARGUMENT, "--reader: '%s' is none of auto, buffer, image", text);
+    return false;
+}
+
+static bool read_lanes(const char *text, int *lanes) {
+    if (!cli_integer("--lanes", text, 1, lanes))
+        return false;
+    if (*lanes == 1 || *lanes == 4 || *lanes == 8 || *lanes == 16)
+        return true;
+    cli_fail(PEL_ERROR_ARGUMENT, "--lanes: %d is none of 1, 4, 8, 16", *lanes);
+    return false;
+}
+
+// Keys of the scene; ARGP_ERR_UNKNOWN for the other options.
+static error_t parse_scene_key(int key, const char *argument, struct render_options *options) {
+    bool good = true;
+    switch (key) {
+    case KEY_SIZE:
+        good = add_size(options, argument);
+        break;
+    case KEY_CAMERA:
+        good = overrides_add_camera(&options->overrides, argument);
+        break;
+    case KEY_MIX:
+        overrides_add_text(&options->overrides, "render.mixing", argument);
+        break;
+    case KEY_STEP:
+        good = add_number(options, "--step", "render.step", argument);
+        break;
+    case KEY_TERMINATION:
+        good = add_number(options, "--termination", "render.termination", argument);
+        break;
+    case KEY_PHASE:
+        good = add_number(options, "--phase", "render.phase", argument);
+        break;
+    case KEY_FILTER:
+        overrides_add_text(&options->overrides, "volumes.*.filter", argument);
+        break;
+    case KEY_DENSITY:
+        good = add_number(options, "--density", "volumes.*.density", argument);
+        break;
+    case KEY_TRANSFER:
+        overrides_add_text(&options->overrides, "volumes.*.transfer", argument);
+        break;
+    case KEY_BACKGROUND:
+        add_background(options, argument);
+        break;
+    case KEY_DEPTH:
+        good = add_integer(options, "--depth", "output.depth", argument);
+        break;
+    case KEY_ALPHA:
+        overrides_add_text(&options->overrides, "output.alpha", argument);
+        break;
+    case KEY_SET:
+        good = add_set(options, argument);
+        break;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+    return good ? 0 : PEL_ERROR_ARGUMENT;
+}
+
+static error_t parse(int key, char *argument, struct argp_state *state) {
+    struct render_options *options = state->input;
+    bool good = true;
+    switch (key) {
+    case 'o':
+        options->output = argument;
+        break;
+    case 'q':
+        options->quiet = true;
+        break;
+    case KEY_JSON:
+        options->json = true;
+        break;
+    case KEY_DEVICE:
+        options->renderer.device = argument;
+        break;
+    case KEY_READER:
+        good = read_reader(argument, &options->renderer.reader);
+        break;
+    case KEY_LANES:
+        good = read_lanes(argument, &options->renderer.lanes);
+        break;
+    case KEY_WORK_GROUP:
+        good = cli_integer("--work-group", argument, 1, &options->renderer.work_group);
+        break;
+    case ARGP_KEY_ARGS:
+        options->inputs = state->argv + state->next;
+        options->input_count = state->argc - state->next;
+        break;
+    case ARGP_KEY_NO_ARGS:
+        argp_error(state, "a scene or a volume is needed");
+        break;
+    default:
+        return parse_scene_key(key, argument, options);
+    }
+    return good ? 0 : PEL_ERROR_ARGUMENT;
+}
+
+int render_options_parse(struct render_options *options, int argc, char **argv) {
+    static const struct argp argp = {
+        .options = argp_options,
+        .parser = parse,
+        .args_doc = "SCENE|VOLUME...",
+        .doc = "Renders a scene file (.json), or one or more volumes placed by their headers, to a "
+               "picture.\v"
+               "Options override what the scene says. Examples:\n\n"
+               "  pellucid render head.nii.gz\n"
+               "  pellucid render head.nii.gz brain.nii.gz --camera left -o both.png\n"
+               "  pellucid render scene.json --size 1920x1080 --step 0.25 --set camera.fov=20\n"
+               "  pellucid render ct.nrrd --transfer ct-bone --background white -o - | display\n",
+    };
+    *options = (struct render_options){0};
+    return argp_parse(&argp, argc, argv, 0, NULL, options);
+}
+
+void render_options_finish(struct render_options *options) {
+    overrides_finish(&options->overrides);
+}

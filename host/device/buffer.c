@@ -1,0 +1,50 @@
+// buffer.c - plain memory on the device.
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "device/opencl.h"
+#include "device/object.h"
+
+struct pel_buffer *pel_buffer_create(struct pel_device *device, size_t bytes, const char *purpose) {
+    struct pel_buffer *buffer = pel_allocate(1, sizeof *buffer);
+    if (!buffer)
+        return NULL;
+    *buffer = (struct pel_buffer){.device = device, .bytes = bytes ? bytes : 1};
+    cl_int status;
+    buffer->memory =
+        clCreateBuffer(device->context, CL_MEM_READ_WRITE, buffer->bytes, NULL, &status);
+    if (status != CL_SUCCESS) {
+        pel_opencl_fail(status, device->info.name);
+        pel_fail_in("%zu bytes for %s", buffer->bytes, purpose);
+        free(buffer);
+        return NULL;
+    }
+    device->allocated_bytes += buffer->bytes;
+    return buffer;
+}
+
+void pel_buffer_destroy(struct pel_buffer *buffer) {
+    if (!buffer)
+        return;
+    buffer->device->allocated_bytes -= buffer->bytes;
+    clReleaseMemObject(buffer->memory);
+    free(buffer);
+}
+
+bool pel_buffer_write(struct pel_buffer *buffer, size_t offset, size_t bytes, const void *data) {
+    if (bytes == 0)
+        return true;
+    cl_int status = clEnqueueWriteBuffer(buffer->device->queue, buffer->memory, CL_TRUE, offset,
+                                         bytes, data, 0, NULL, NULL);
+    if (status != CL_SUCCESS)
+        return pel_opencl_fail(status, "writing a buffer");
+    buffer->device->uploaded_bytes += bytes;
+    return true;
+}
+
+bool pel_buffer_read(struct pel_buffer *buffer, size_t offset, size_t bytes, void *data) {
+    cl_int status = clEnqueueReadBuffer(buffer->device->queue, buffer->memory, CL_TRUE, offset,
+                                        bytes, data, 0, NULL, NULL);
+    return status == CL_SUCCESS || pel_opencl_fail(status, "reading a buffer");
+}

@@ -1,0 +1,103 @@
+// kernel.c - building and launching kernels.
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "device/object.h"
+#include "device/opencl.h"
+#include "device/source.h"
+
+struct pel_kernel {
+    struct pel_device *device; // borrowed
+    cl_program program;
+    cl_kernel kernel;
+};
+
+// The compiler's words, shortened to what fits a sentence.
+static void fail_build(struct pel_device *device, cl_program program, const char *file,
+                       const char *definitions, cl_int status) {
+    size_t bytes = 0;
+    clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &bytes);
+    char *log = pel_allocate(bytes + 1, 1);
+    if (log && bytes)
+        clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, bytes, log, NULL);
+    pel_fail(PEL_ERROR_BUILD, "kernel %s does not compile for %s (%d, %s): %.1500s", file,
+             device->info.name, status, definitions, log ? log : "");
+    free(log);
+}
+
+struct pel_kernel *pel_kernel_build(struct pel_device *device, const char *file, const char *name,
+                                    const char *definitions) {
+    char *source = pel_kernel_source(file);
+    if (!source)
+        return NULL;
+    struct pel_kernel *kernel = pel_allocate(1, sizeof *kernel);
+    if (!kernel) {
+        free(source);
+        return NULL;
+    }
+    kernel->device = device;
+    cl_int status;
+    const char *text = source;
+    kernel->program = clCreateProgramWithSource(device->context, 1, &text, NULL, &status);
+    free(source);
+    if (status != CL_SUCCESS) {
+        pel_opencl_fail(status, "creating a program");
+        pel_kernel_destroy(kernel);
+        return NULL;
+    }
+    status = clBuildProgram(kernel->program, 1, &device->id, definitions, NULL, NULL);
+    if (status == CL_SUCCESS)
+        kernel->kernel = clCreateKernel(kernel->program, name, &status);
+    if (status != CL_SUCCESS) {
+        fail_build(device, kernel->program, file, definitions, status);
+        pel_kernel_destroy(kernel);
+        return NULL;
+    }
+    return kernel;
+}
+
+void pel_kernel_destroy(struct pel_kernel *kernel) {
+    if (!kernel)
+        return;
+    if (kernel->kernel)
+        clReleaseKernel(kernel->kernel);
+    if (kernel->program)
+        clReleaseProgram(kernel->program);
+    free(kernel);
+}
+
+static bool set_argument(struct pel_kernel *kernel, int index, size_t bytes, const void *value) {
+    cl_int status = clSetKernelArg(kernel->kernel, (cl_uint)index, bytes, value);
+    return status == CL_SUCCESS || pel_opencl_fail(status, "setting a kernel argument");
+}
+
+bool pel_kernel_set_buffer(struct pel_kernel *kernel, int index, const struct pel_buffer *buffer) {
+    return set_argument(kernel, index, sizeof buffer->memory, &buffer->memory);
+}
+
+bool pel_kernel_set_texture(struct pel_kernel *kernel, int index,
+                            const struct pel_texture *texture) {
+    return set_argument(kernel, index, sizeof texture->memory, &texture->memory);
+}
+
+bool pel_kernel_set_u32(struct pel_kernel *kernel, int index, uint32_t value) {
+    return set_argument(kernel, index, sizeof value, &value);
+}
+
+bool pel_kernel_launch(struct pel_kernel *kernel, size_t count, size_t group) {
+    cl_int status = clEnqueueNDRangeKernel(kernel->device->queue, kernel->kernel, 1, NULL, &count,
+                                           &group, 0, NULL, NULL);
+    if (status != CL_SUCCESS)
+        return pel_opencl_fail(status, "launching a kernel");
+    clFlush(kernel->device->queue);
+    return true;
+}
+
+size_t pel_kernel_max_group(const struct pel_kernel *kernel) {
+    size_t group = 1;
+    clGetKernelWorkGroupInfo(kernel->kernel, kernel->device->id, CL_KERNEL_WORK_GROUP_SIZE,
+                             sizeof group, &group, NULL);
+    return group;
+}

@@ -1,0 +1,30 @@
+// opencl.h - inside the device module: the OpenCL behind the opaque types.
+#ifndef PEL_DEVICE_OPENCL_H
+#define PEL_DEVICE_OPENCL_H
+
+#include <CL/cl.h>
+
+#include "device/device.h"
+
+struct pel_device {
+    struct pel_device_info info;
+    cl_platform_id platform;
+    cl_device_id id;
+    cl_context context;
+    cl_command_queue queue;
+    uint64_t allocated_bytes, uploaded_bytes;
+};
+
+// One device of one platform, as enumeration finds it.
+struct pel_device_place {
+    cl_platform_id platform;
+    cl_device_id id;
+};
+
+// Finds all devices with their descriptions, in the order users count them.
+int pel_device_enumerate(struct pel_device_info *infos, struct pel_device_place *places);
+
+// Records a failed OpenCL call; always false (DEVICE; MEMORY is the device's, too).
+bool pel_opencl_fail(cl_int status, const char *what);
+
+#endif

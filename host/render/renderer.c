@@ -1,0 +1,400 @@
+// renderer.c - the frame loop.
+//
+// A frame is: plan where voxels lie, make the world's bytes, send what changed, choose the kernel,
+// and run it over the picture's tiles in batches, short enough for a watchdog and for a progress
+// display. What is on the device stays there, so the next frame sends only what differs from it.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "device/device.h"
+#include "render/residency.h"
+#include "render/variant.h"
+
+enum { KERNEL_CACHE = 16, PICTURE_MAX = 32768 };
+
+// A batch of tiles should take about this long.
+static const double batch_ms = 150;
+
+struct cached_kernel {
+    char definitions[PEL_VARIANT_BYTES];
+    struct pel_kernel *kernel;
+};
+
+// A buffer on the device with a copy of what was last sent there.
+struct mirror {
+    struct pel_buffer *buffer;
+    void *copy;
+    size_t bytes;
+};
+
+struct pel_renderer {
+    struct pel_device *device;
+    struct pel_renderer_options options;
+    struct pel_residency residency;
+    struct cached_kernel kernels[KERNEL_CACHE]; // newest first
+    struct mirror world, tables;
+    struct pel_buffer *picture, *sample_counts;
+    size_t picture_bytes, sample_counts_bytes;
+    double tiles_per_ms; // as the last frame ran; 0 = unknown
+};
+
+static double now_ms(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
+}
+
+// Time since *mark, which moves to now.
+static double lap_ms(double *mark) {
+    double now = now_ms(), elapsed = now - *mark;
+    *mark = now;
+    return elapsed;
+}
+
+// ---- What is on the device ---------------------------------------------------------------------
+
+static void mirror_finish(struct mirror *mirror) {
+    pel_buffer_destroy(mirror->buffer);
+    free(mirror->copy);
+    *mirror = (struct mirror){0};
+}
+
+// Sends the blocks that differ from what is there: so a camera that moved sends only itself.
+static bool mirror_update(struct mirror *mirror, struct pel_device *device, const void *data,
+                          size_t bytes, const char *purpose) {
+    enum { BLOCK = 4096, HEAD = sizeof(struct camera) };
+    bool fresh = bytes != mirror->bytes;
+    if (fresh) {
+        mirror_finish(mirror);
+        mirror->buffer = pel_buffer_create(device, bytes, purpose);
+        mirror->copy = pel_allocate(bytes, 1);
+        mirror->bytes = bytes;
+        if (!mirror->buffer || !mirror->copy) {
+            mirror_finish(mirror);
+            return false;
+        }
+    }
+    size_t end;
+    for (size_t start = 0; start < bytes; start = end) {
+        end = start == 0 ? HEAD : start + BLOCK;
+        if (end > bytes)
+            end = bytes;
+        const char *block = (const char *)data + start;
+        char *copy = (char *)mirror->copy + start;
+        if (!fresh && memcmp(block, copy, end - start) == 0)
+            continue;
+        if (!pel_buffer_write(mirror->buffer, start, end - start, block))
+            return false;
+        memcpy(copy, block, end - start);
+    }
+    return true;
+}
+
+// A buffer of at least `bytes`, made anew when it is too small.
+static bool grow_buffer(struct pel_buffer **buffer, size_t *have, size_t bytes,
+                        struct pel_device *device, const char *purpose) {
+    if (bytes <= *have)
+        return true;
+    pel_buffer_destroy(*buffer);
+    *buffer = pel_buffer_create(device, bytes, purpose);
+    *have = *buffer ? bytes : 0;
+    return *buffer != NULL;
+}
+
+// The kernel of a variant, from the cache or built now. Borrowed.
+static struct pel_kernel *find_kernel(struct pel_renderer *renderer,
+                                      const struct pel_variant *variant) {
+    char definitions[PEL_VARIANT_BYTES];
+    pel_variant_write(variant, definitions);
+    struct cached_kernel found = {.kernel = NULL};
+    int place = 0;
+    for (; place < KERNEL_CACHE - 1 && renderer->kernels[place].kernel; place++)
+        if (strcmp(renderer->kernels[place].definitions, definitions) == 0)
+            break;
+    if (renderer->kernels[place].kernel &&
+        strcmp(renderer->kernels[place].definitions, definitions) == 0) {
+        found = renderer->kernels[place];
+    } else {
+        found.kernel = pel_kernel_build(renderer->device, "render.cl", "render", definitions);
+        if (!found.kernel)
+            return NULL;
+        memcpy(found.definitions, definitions, sizeof definitions);
+        pel_kernel_destroy(renderer->kernels[place].kernel);
+    }
+    memmove(&renderer->kernels[1], &renderer->kernels[0], (size_t)place * sizeof found);
+    renderer->kernels[0] = found;
+    return found.kernel;
+}
+
+// ---- One frame ---------------------------------------------------------------------------------
+
+// How a picture's tiles are handed out. A work-group may span several tiles, so launches are
+// rounded up to whole groups; the tiles beyond the picture's end do nothing.
+struct extent {
+    size_t tiles, packets_per_tile, group, tiles_per_group;
+};
+
+static struct extent picture_extent(const struct pel_render_settings *settings, int lanes,
+                                    size_t group) {
+    size_t tiles_x = ((size_t)settings->width + TILE_PX - 1) / TILE_PX;
+    size_t tiles_y = ((size_t)settings->height + TILE_PX - 1) / TILE_PX;
+    size_t packets = TILE_PX * TILE_PX / (size_t)lanes;
+    return (struct extent){tiles_x * tiles_y, packets, group,
+                           group > packets ? group / packets : 1};
+}
+
+static size_t round_up(size_t value, size_t multiple) {
+    return (value + multiple - 1) / multiple * multiple;
+}
+
+static bool check_settings(const struct pel_scene *scene) {
+    const struct pel_render_settings *settings = &scene->render;
+    if (settings->width < 1 || settings->height < 1 || settings->width > PICTURE_MAX ||
+        settings->height > PICTURE_MAX)
+        return pel_fail(PEL_ERROR_ARGUMENT, "picture of %d x %d pixels, outside 1..%d",
+                        settings->width, settings->height, PICTURE_MAX);
+    if (!(settings->step > 0) || !isfinite(settings->step))
+        return pel_fail(PEL_ERROR_ARGUMENT, "step of %g voxels, must be above 0", settings->step);
+    if (!(settings->phase >= 0 && settings->phase <= 1))
+        return pel_fail(PEL_ERROR_ARGUMENT, "phase %g, outside 0..1", settings->phase);
+    if (!(settings->termination >= 0 && settings->termination <= 1))
+        return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
+    return true;
+}
+
+// Refuses a frame whose voxels and picture together do not fit, before anything is allocated.
+static bool check_memory(const struct pel_layout *layout, const struct pel_layout_limits *limits,
+                         uint64_t frame_bytes) {
+    uint64_t needed = frame_bytes;
+    for (int b = 0; b < VOXEL_BUFFERS; b++)
+        needed += layout->buffer_bytes[b];
+    for (int class = 0; class < VOXEL_CLASS_COUNT; class ++)
+        needed += (uint64_t)layout->atlas[class][0] * layout->atlas[class][1] *
+                  layout->atlas[class][2] * pel_voxel_class_bytes(class);
+    if (needed > limits->memory_bytes)
+        return pel_fail(PEL_ERROR_DEVICE,
+                        "volumes and picture need %llu bytes, the device has %llu",
+                        (unsigned long long)needed, (unsigned long long)limits->memory_bytes);
+    return true;
+}
+
+static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel) {
+    int index = 0;
+    bool good = pel_kernel_set_buffer(kernel, index++, renderer->world.buffer) &&
+                pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer) &&
+                pel_kernel_set_buffer(kernel, index++, renderer->picture) &&
+                pel_kernel_set_buffer(kernel, index++, renderer->sample_counts);
+    index++; // the first tile is set for each batch
+    struct pel_residency *residency = &renderer->residency;
+    if (residency->layout.reader == PEL_READER_BUFFER) {
+        for (int b = 0; good && b < VOXEL_BUFFERS; b++)
+            good = pel_kernel_set_buffer(kernel, index++, residency->buffers[b]);
+        return good;
+    }
+    uint32_t atlas_count = 0;
+    for (int class = 0; good && class < VOXEL_CLASS_COUNT; class ++) {
+        if (!residency->atlases[class])
+            continue;
+        good = pel_kernel_set_texture(kernel, index++, residency->atlases[class]);
+        atlas_count++;
+    }
+    return good && pel_kernel_set_u32(kernel, index, atlas_count);
+}
+
+// Runs the kernel over `count` tiles from `first` on and waits for it.
+static bool run_batch(struct pel_renderer *renderer, struct pel_kernel *kernel,
+                      const struct extent *extent, size_t first, size_t count) {
+    enum { FIRST_TILE_ARGUMENT = 4 };
+    size_t items = round_up(count, extent->tiles_per_group) * extent->packets_per_tile;
+    return pel_kernel_set_u32(kernel, FIRST_TILE_ARGUMENT, (uint32_t)first) &&
+           pel_kernel_launch(kernel, items, extent->group) && pel_device_finish(renderer->device);
+}
+
+// Runs the kernel over all tiles, in batches.
+static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
+                      const struct extent *extent, const struct pel_render_options *options) {
+    enum { FIRST_BATCH = 64 };
+    double start = now_ms(), mark = start;
+    double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms : FIRST_BATCH;
+    for (size_t tile = 0; tile < extent->tiles;) {
+        size_t left = extent->tiles - tile;
+        size_t count = batch < 1 ? 1 : batch < (double)left ? (size_t)batch : left;
+        count = round_up(count, extent->tiles_per_group);
+        if (count > left)
+            count = left;
+        if (!run_batch(renderer, kernel, extent, tile, count))
+            return false;
+        tile += count;
+        if (options && options->progress &&
+            !options->progress((double)tile / (double)extent->tiles, options->user))
+            return pel_fail(PEL_ERROR_ARGUMENT, "the frame was abandoned");
+        // The next batch aims at the set time, but one measurement makes it grow fourfold at most.
+        double per_ms = (double)count / fmax(lap_ms(&mark), 0.05);
+        batch = fmin(per_ms * batch_ms, 4.0 * (double)count);
+    }
+    renderer->tiles_per_ms = (double)extent->tiles / fmax(now_ms() - start, 0.05);
+    return true;
+}
+
+static uint64_t count_samples(struct pel_renderer *renderer, size_t packets) {
+    uint32_t *counts = pel_allocate(packets, sizeof *counts);
+    uint64_t sum = 0;
+    if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts))
+        for (size_t i = 0; i < packets; i++)
+            sum += counts[i];
+    free(counts);
+    return sum;
+}
+
+// The work-group that the user, the device or the kernel allows: a power of two.
+static size_t choose_group(const struct pel_renderer *renderer, const struct pel_kernel *kernel) {
+    int wanted = renderer->options.work_group;
+    if (!wanted)
+        wanted = pel_device_describe(renderer->device)->work_group;
+    size_t most = pel_kernel_max_group(kernel);
+    size_t group = 1;
+    while (group * 2 <= (size_t)wanted && group * 2 <= most)
+        group *= 2;
+    return group;
+}
+
+// Sends what changed and gives back the kernel, ready to run; NULL on failure.
+static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                  const struct pel_layout *layout, const struct pel_world *world,
+                                  struct extent *extent, struct pel_render_statistics *statistics) {
+    double mark = now_ms();
+    struct pel_device *device = renderer->device;
+    int lanes = statistics->lanes;
+    struct pel_variant variant = pel_variant_choose(
+        world, layout->reader, lanes, pel_device_describe(device)->max_constant_bytes);
+    struct pel_kernel *kernel = find_kernel(renderer, &variant);
+    if (!kernel)
+        return NULL;
+    statistics->build_ms = lap_ms(&mark);
+
+    *extent = picture_extent(&scene->render, lanes, choose_group(renderer, kernel));
+    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
+    size_t packets = (extent->tiles + extent->tiles_per_group) * extent->packets_per_tile;
+    static const u32 no_tables[2] = {0};
+    bool empty = world->table_words == 0;
+    if (!pel_residency_update(&renderer->residency, scene, layout) ||
+        !mirror_update(&renderer->world, device, &world->bytes, sizeof world->bytes, "the scene") ||
+        !mirror_update(&renderer->tables, device, empty ? no_tables : world->tables,
+                       empty ? sizeof no_tables : world->table_words * sizeof *world->tables,
+                       "transfer functions") ||
+        !grow_buffer(&renderer->picture, &renderer->picture_bytes, pixels * sizeof(float4), device,
+                     "the picture") ||
+        !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
+                     packets * sizeof(u32), device, "sample counts") ||
+        !set_arguments(renderer, kernel))
+        return NULL;
+    statistics->upload_ms = lap_ms(&mark);
+    statistics->work_group = (int)extent->group;
+    return kernel;
+}
+
+// Runs the kernel and brings the picture here. The caller owns it.
+static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *kernel,
+                             const struct pel_scene *scene, const struct extent *extent,
+                             const struct pel_render_options *options,
+                             struct pel_render_statistics *statistics) {
+    double mark = now_ms();
+    if (!run_tiles(renderer, kernel, extent, options))
+        return NULL;
+    statistics->render_ms = lap_ms(&mark);
+    struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
+    if (!image)
+        return NULL;
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    if (!pel_buffer_read(renderer->picture, 0, pixels * sizeof(float4), image->rgba)) {
+        pel_image_destroy(image);
+        return NULL;
+    }
+    statistics->rays = pixels;
+    statistics->samples = count_samples(renderer, extent->tiles * extent->packets_per_tile);
+    statistics->download_ms = lap_ms(&mark);
+    return image;
+}
+
+struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                      const struct pel_render_options *options,
+                                      struct pel_render_statistics *statistics) {
+    double mark = now_ms();
+    const struct pel_device_info *info = pel_device_describe(renderer->device);
+    struct pel_render_statistics unwanted;
+    if (!statistics)
+        statistics = &unwanted;
+    *statistics = (struct pel_render_statistics){0};
+    uint64_t uploaded_before = pel_device_uploaded_bytes(renderer->device);
+    if (!check_settings(scene))
+        return NULL;
+
+    // Where the voxels lie decides what the world's bytes say.
+    struct pel_layout_limits limits =
+        pel_residency_limits(renderer->device, renderer->options.max_allocation_bytes);
+    struct pel_layout layout;
+    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
+    if (!pel_layout_plan(&layout, scene, &limits, renderer->options.reader, info->reader) ||
+        !check_memory(&layout, &limits, pixels * sizeof(float4)))
+        return NULL;
+    struct pel_world world;
+    if (!pel_world_build(&world, scene, &layout))
+        return NULL;
+    statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
+    statistics->reader = layout.reader;
+    statistics->prepare_ms = lap_ms(&mark);
+
+    struct extent extent;
+    struct pel_kernel *kernel = prepare(renderer, scene, &layout, &world, &extent, statistics);
+    struct pel_image *image =
+        kernel ? run(renderer, kernel, scene, &extent, options, statistics) : NULL;
+    pel_world_finish(&world);
+    memcpy(statistics->device, info->name, sizeof statistics->device);
+    memcpy(statistics->driver, info->driver, sizeof statistics->driver);
+    statistics->device_bytes = pel_device_allocated_bytes(renderer->device);
+    statistics->uploaded_bytes = pel_device_uploaded_bytes(renderer->device) - uploaded_before;
+    return image;
+}
+
+struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *options) {
+    struct pel_renderer_options chosen = options ? *options : (struct pel_renderer_options){0};
+    int lanes = chosen.lanes, group = chosen.work_group;
+    if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16) {
+        pel_fail(PEL_ERROR_ARGUMENT, "%d lanes; there are kernels for 1, 4, 8 and 16", lanes);
+        return NULL;
+    }
+    if (group < 0 || (group & (group - 1)) != 0) {
+        pel_fail(PEL_ERROR_ARGUMENT, "work-group of %d, must be a power of two", group);
+        return NULL;
+    }
+    struct pel_renderer *renderer = pel_allocate(1, sizeof *renderer);
+    if (!renderer)
+        return NULL;
+    renderer->options = chosen;
+    renderer->device = pel_device_open(chosen.device);
+    renderer->options.device = NULL; // it was borrowed for this call
+    renderer->residency.device = renderer->device;
+    if (!renderer->device) {
+        pel_renderer_destroy(renderer);
+        return NULL;
+    }
+    return renderer;
+}
+
+void pel_renderer_destroy(struct pel_renderer *renderer) {
+    if (!renderer)
+        return;
+    pel_residency_finish(&renderer->residency);
+    mirror_finish(&renderer->world);
+    mirror_finish(&renderer->tables);
+    pel_buffer_destroy(renderer->picture);
+    pel_buffer_destroy(renderer->sample_counts);
+    for (int i = 0; i < KERNEL_CACHE; i++)
+        pel_kernel_destroy(renderer->kernels[i].kernel);
+    pel_device_close(renderer->device);
+    free(renderer);
+}

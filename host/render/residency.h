@@ -1,0 +1,27 @@
+// residency.h - a scene's voxels on the device, kept from frame to frame.
+#ifndef PEL_RENDER_RESIDENCY_H
+#define PEL_RENDER_RESIDENCY_H
+
+#include "device/device.h"
+#include "world/layout.h"
+
+struct pel_residency {
+    struct pel_device *device; // borrowed
+    struct pel_layout layout;
+    struct pel_buffer *buffers[VOXEL_BUFFERS];
+    struct pel_texture *atlases[VOXEL_CLASS_COUNT];
+};
+
+// What the device can hold; `max_allocation_bytes` lowers its own limit unless 0.
+struct pel_layout_limits pel_residency_limits(const struct pel_device *device,
+                                              uint64_t max_allocation_bytes);
+
+// Brings the scene's volumes to where `layout` puts them. Nothing is sent when they lie there
+// already. On failure (DEVICE, MEMORY) nothing stays on the device.
+bool pel_residency_update(struct pel_residency *residency, const struct pel_scene *scene,
+                          const struct pel_layout *layout);
+
+// Frees everything on the device.
+void pel_residency_finish(struct pel_residency *residency);
+
+#endif

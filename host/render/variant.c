@@ -1,0 +1,33 @@
+// variant.c - which kernel a frame needs, and the -D definitions that make it.
+#include "render/variant.h"
+
+#include <stdio.h>
+
+struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_reader reader,
+                                      int lanes, uint64_t constant_bytes) {
+    int parts = world->bytes.part_count;
+    return (struct pel_variant){
+        .lanes = lanes,
+        .reader = reader == PEL_READER_IMAGE ? READER_IMAGE : READER_BUFFER,
+        // An empty scene still needs a kernel that compiles.
+        .voxels = world->voxels ? world->voxels : VOXELS_U8,
+        .filters = world->filters ? world->filters : FILTERS_LINEAR,
+        .mixing = world->mixing,
+        .capacity = parts <= 1   ? 1
+                    : parts <= 8 ? 8
+                                 : WORLD_PART_MAX,
+        .table_linear = world->table_linear,
+        .table_global =
+            sizeof world->bytes + world->table_words * sizeof *world->tables > constant_bytes,
+    };
+}
+
+void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_BYTES]) {
+    snprintf(
+        text, PEL_VARIANT_BYTES,
+        "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DCAPACITY=%d "
+        "-DTABLE_LINEAR=%d -DTABLE_SPACE=%s",
+        variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
+        variant->capacity, variant->table_linear,
+        variant->table_global ? "__global" : "__constant");
+}

@@ -1,0 +1,28 @@
+// variant.h - which kernel a frame needs, and the -D definitions that make it.
+#ifndef PEL_RENDER_VARIANT_H
+#define PEL_RENDER_VARIANT_H
+
+#include "world/world.h"
+
+enum { PEL_VARIANT_BYTES = 256 };
+
+// Zero-initialise and fill: variants are compared by the text they are written as.
+struct pel_variant {
+    int lanes;    // rays per work-item
+    int reader;   // READER_*
+    int voxels;   // VOXELS_*
+    int filters;  // FILTERS_*
+    int mixing;   // MIXING_*
+    int capacity; // parts: 1, 8 or WORLD_PART_MAX
+    bool table_linear;
+    bool table_global; // the tables do not fit into constant memory
+};
+
+// The variant for a world on a device with `constant_bytes` of constant memory.
+struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_reader reader,
+                                      int lanes, uint64_t constant_bytes);
+
+// Every definition by name. The only place that knows the kernels' knobs.
+void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_BYTES]);
+
+#endif

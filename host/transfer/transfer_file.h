@@ -1,0 +1,17 @@
+// transfer_file.h - the one reader of transfer functions in JSON, for files and for scenes.
+#ifndef PEL_TRANSFER_TRANSFER_FILE_H
+#define PEL_TRANSFER_TRANSFER_FILE_H
+
+#include "pellucid.h"
+
+struct json_t;
+
+// Makes a transfer function of parsed JSON: the name of a preset; an object of Pellucid's own, as
+// scenes/README.md describes it; a ParaView colour map (also the array around it); or a Slicer
+// volume property. The function is checked but not resolved. `json` is only read.
+// Returns NULL on failure (FORMAT; ARGUMENT for an unknown preset; MEMORY); `*bad_key` is then the
+// path below `json` of what is wrong, such as "opacities.3" or "" for the whole, as
+// pel_text_locate takes it. It stays valid until this thread's next call.
+struct pel_transfer *pel_transfer_parse(const struct json_t *json, const char **bad_key);
+
+#endif

@@ -1,0 +1,215 @@
+// layout.c - where each volume of a scene goes in a device's memory.
+#include "world/layout.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+#include "base/error.h"
+
+// Buffers are addressed with 31 bits per lane, whatever the device would allow.
+static const uint64_t buffer_limit = (uint64_t)1 << 31;
+
+// Slabs start at multiples of this, so that wide loads are aligned.
+static const uint64_t slab_alignment = 256;
+
+int pel_voxel_class(enum pel_voxel_type type) {
+    switch (type) {
+    case PEL_VOXEL_U8:
+    case PEL_VOXEL_I8:
+        return 0;
+    case PEL_VOXEL_U16:
+    case PEL_VOXEL_I16:
+        return 1;
+    case PEL_VOXEL_F32:
+        return 2;
+    case PEL_VOXEL_RGB8:
+    case PEL_VOXEL_RGBA8:
+        break;
+    }
+    return 3;
+}
+
+size_t pel_voxel_class_bytes(int class_index) {
+    return (size_t[VOXEL_CLASS_COUNT]){1, 2, 4, 4}[class_index];
+}
+
+static uint64_t slice_bytes(const struct pel_volume *volume) {
+    return ((uint64_t)volume->dims[0] + 2) * ((uint64_t)volume->dims[1] + 2) *
+           pel_voxel_class_bytes(pel_voxel_class(volume->type));
+}
+
+// All stored bytes of the scene, borders included but not those between slabs.
+static uint64_t scene_bytes(const struct pel_scene *scene) {
+    uint64_t bytes = 0;
+    for (int v = 0; v < scene->volume_count; v++)
+        bytes += slice_bytes(scene->volumes[v]) * ((uint64_t)scene->volumes[v]->dims[2] + 2);
+    return bytes;
+}
+
+static struct pel_slab *add_slab(struct pel_layout *layout, const struct pel_scene *scene, int v,
+                                 int first, int count) {
+    if (layout->slab_count == WORLD_PART_MAX) {
+        pel_fail(PEL_ERROR_DEVICE, "the volumes would have to be cut into more than %d slabs",
+                 WORLD_PART_MAX);
+        return NULL;
+    }
+    struct pel_slab *slab = &layout->slabs[layout->slab_count++];
+    // Layouts are compared byte by byte, so padding is cleared as well.
+    memset(slab, 0, sizeof *slab);
+    slab->serial = scene->volumes[v]->serial;
+    slab->volume = v;
+    slab->class_index = pel_voxel_class(scene->volumes[v]->type);
+    slab->first = first;
+    slab->count = count;
+    return slab;
+}
+
+// First fit: the slab goes into the first buffer that still has room.
+static bool place_slab(struct pel_layout *layout, struct pel_slab *slab, uint64_t bytes,
+                       uint64_t limit) {
+    for (int b = 0; b < VOXEL_BUFFERS; b++) {
+        uint64_t start =
+            (layout->buffer_bytes[b] + slab_alignment - 1) / slab_alignment * slab_alignment;
+        if (start + bytes <= limit) {
+            slab->buffer = b;
+            slab->offset_bytes = start;
+            layout->buffer_bytes[b] = start + bytes;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool plan_buffers(struct pel_layout *layout, const struct pel_scene *scene,
+                         const struct pel_layout_limits *limits) {
+    layout->reader = PEL_READER_BUFFER;
+    uint64_t limit =
+        limits->max_allocation_bytes < buffer_limit ? limits->max_allocation_bytes : buffer_limit;
+    for (int v = 0; v < scene->volume_count; v++) {
+        const struct pel_volume *volume = scene->volumes[v];
+        uint64_t slice = slice_bytes(volume);
+        uint64_t most = limit / slice; // slices that fit into one buffer, border included
+        if (most < 3)
+            return pel_fail(PEL_ERROR_DEVICE,
+                            "volume '%s': one slice needs %" PRIu64
+                            " bytes with its border, the device's largest "
+                            "allocation is %" PRIu64,
+                            volume->name, slice * 3, limit);
+        int slices = most - 2 < (uint64_t)volume->dims[2] ? (int)(most - 2) : volume->dims[2];
+        for (int first = 0; first < volume->dims[2]; first += slices) {
+            int count = volume->dims[2] - first < slices ? volume->dims[2] - first : slices;
+            struct pel_slab *slab = add_slab(layout, scene, v, first, count);
+            if (!slab)
+                return false;
+            if (!place_slab(layout, slab, slice * ((uint64_t)count + 2), limit))
+                return pel_fail(
+                    PEL_ERROR_DEVICE,
+                    "the volumes need %" PRIu64 " bytes, the device takes %d buffers of %" PRIu64
+                    " bytes; a smaller copy (pellucid convert --downsample 2) would fit",
+                    scene_bytes(scene), VOXEL_BUFFERS, limit);
+        }
+    }
+    uint64_t total = 0;
+    for (int b = 0; b < VOXEL_BUFFERS; b++)
+        total += layout->buffer_bytes[b];
+    if (total > limits->memory_bytes)
+        return pel_fail(PEL_ERROR_DEVICE,
+                        "the volumes need %" PRIu64 " bytes, the device has %" PRIu64
+                        "; a smaller copy (pellucid convert --downsample 2) would fit",
+                        total, limits->memory_bytes);
+    return true;
+}
+
+// Stacks the volumes of one class along `axis` and returns the atlas's size in texels, 0 if none
+// occur.
+static uint64_t stack_atlas(const struct pel_scene *scene, int class_index, int axis,
+                            size_t dims[3]) {
+    memset(dims, 0, 3 * sizeof *dims);
+    for (int v = 0; v < scene->volume_count; v++) {
+        const struct pel_volume *volume = scene->volumes[v];
+        if (pel_voxel_class(volume->type) != class_index)
+            continue;
+        for (int i = 0; i < 3; i++) {
+            size_t extent = (size_t)volume->dims[i] + 2;
+            dims[i] = i == axis ? dims[i] + extent : extent > dims[i] ? extent : dims[i];
+        }
+    }
+    return (uint64_t)dims[0] * dims[1] * dims[2];
+}
+
+// Chooses the axis along which the class's volumes waste least; -1 when the stack fits along none.
+static int choose_axis(const struct pel_scene *scene, int class_index,
+                       const struct pel_layout_limits *limits, size_t dims[3]) {
+    int best = -1;
+    uint64_t best_texels = UINT64_MAX;
+    for (int axis = 2; axis >= 0; axis--) {
+        size_t stacked[3];
+        uint64_t texels = stack_atlas(scene, class_index, axis, stacked);
+        bool fits = texels * pel_voxel_class_bytes(class_index) <= limits->max_allocation_bytes;
+        for (int i = 0; i < 3; i++)
+            fits = fits && stacked[i] <= limits->max_image[i];
+        if (fits && texels < best_texels) {
+            best = axis;
+            best_texels = texels;
+            memcpy(dims, stacked, sizeof stacked);
+        }
+    }
+    return best;
+}
+
+static bool plan_images(struct pel_layout *layout, const struct pel_scene *scene,
+                        const struct pel_layout_limits *limits) {
+    layout->reader = PEL_READER_IMAGE;
+    if (!limits->images)
+        return pel_fail(PEL_ERROR_UNSUPPORTED, "the device has no 3-D images; use --reader buffer");
+    int axes[VOXEL_CLASS_COUNT];
+    uint64_t total = 0;
+    for (int class = 0; class < VOXEL_CLASS_COUNT; class ++) {
+        size_t dims[3];
+        uint64_t texels = stack_atlas(scene, class, 2, dims);
+        if (texels > 0 && !limits->texels[class])
+            return pel_fail(PEL_ERROR_UNSUPPORTED,
+                            "the device has no 3-D images of this voxel type; use --reader buffer");
+        axes[class] = choose_axis(scene, class, limits, layout->atlas[class]);
+        if (axes[class] < 0)
+            return pel_fail(PEL_ERROR_DEVICE,
+                            "the volumes need an image of %zu x %zu x %zu texels, %" PRIu64
+                            " bytes; the device takes %zu x %zu x %zu, %" PRIu64
+                            " bytes; --reader buffer may fit",
+                            dims[0], dims[1], dims[2], texels * pel_voxel_class_bytes(class),
+                            limits->max_image[0], limits->max_image[1], limits->max_image[2],
+                            limits->max_allocation_bytes);
+        total += (uint64_t)layout->atlas[class][0] * layout->atlas[class][1] *
+                 layout->atlas[class][2] * pel_voxel_class_bytes(class);
+    }
+    if (total > limits->memory_bytes)
+        return pel_fail(PEL_ERROR_DEVICE,
+                        "the volumes need %" PRIu64 " bytes, the device has %" PRIu64, total,
+                        limits->memory_bytes);
+
+    size_t next[VOXEL_CLASS_COUNT] = {0};
+    for (int v = 0; v < scene->volume_count; v++) {
+        struct pel_slab *slab = add_slab(layout, scene, v, 0, scene->volumes[v]->dims[2]);
+        if (!slab)
+            return false;
+        int class = slab->class_index, axis = axes[class];
+        slab->origin[axis] = next[class];
+        next[class] += (size_t)scene->volumes[v]->dims[axis] + 2;
+    }
+    return true;
+}
+
+bool pel_layout_plan(struct pel_layout *layout, const struct pel_scene *scene,
+                     const struct pel_layout_limits *limits, enum pel_reader reader,
+                     enum pel_reader preferred) {
+    enum pel_reader first = reader == PEL_READER_AUTO ? preferred : reader;
+    memset(layout, 0, sizeof *layout);
+    if (first == PEL_READER_IMAGE ? plan_images(layout, scene, limits)
+                                  : plan_buffers(layout, scene, limits))
+        return true;
+    if (reader != PEL_READER_AUTO || first == PEL_READER_BUFFER)
+        return false;
+    pel_warn("%s; reading from buffers instead", pel_error_message());
+    memset(layout, 0, sizeof *layout);
+    return plan_buffers(layout, scene, limits);
+}

@@ -1,0 +1,81 @@
+// scene.c - what every scene can do, whichever way it came about.
+#include "world/scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/math.h"
+#include "base/memory.h"
+#include "camera/camera.h"
+
+struct pel_scene *pel_scene_create(void) {
+    struct pel_scene *scene = pel_allocate(1, sizeof *scene);
+    if (!scene)
+        return NULL;
+    // The camera is fitted to the volumes once they are known.
+    scene->camera = (struct pel_camera){.up = {0, 0, 1}, .fov_deg = PEL_CAMERA_FOV_DEFAULT_DEG};
+    scene->background[3] = 1;
+    scene->render = (struct pel_render_settings){.width = 1024,
+                                                 .height = 768,
+                                                 .mixing = PEL_MIX_SUM,
+                                                 .step = 0.5,
+                                                 .phase = 0.5,
+                                                 .termination = 0.99,
+                                                 .origin = PEL_ORIGIN_VOLUMES};
+    scene->output.depth = 8;
+    return scene;
+}
+
+struct pel_instance pel_instance_default(void) {
+    return (struct pel_instance){.transform = pel_matrix_identity(),
+                                 .density = 1,
+                                 .extent = PEL_EXTENT_CELL,
+                                 .filter = PEL_FILTER_LINEAR};
+}
+
+void pel_scene_destroy(struct pel_scene *scene) {
+    if (!scene)
+        return;
+    for (int i = 0; i < scene->volume_count; i++)
+        pel_volume_destroy(scene->volumes[i]);
+    for (int i = 0; i < scene->instance_count; i++)
+        pel_transfer_destroy(scene->instances[i].transfer);
+    free(scene->text);
+    free(scene);
+}
+
+void pel_instance_bounds(const struct pel_scene *scene, int instance, struct pel_bounds *bounds) {
+    const struct pel_instance *shown = &scene->instances[instance];
+    const struct pel_volume *volume = scene->volumes[shown->volume];
+    struct pel_matrix world_from_voxel =
+        pel_matrix_multiply(&shown->transform, &volume->world_from_voxel);
+    double beyond = shown->extent == PEL_EXTENT_CELL ? 0.5 : 0;
+    *bounds =
+        (struct pel_bounds){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (int corner = 0; corner < 8; corner++) {
+        double point[3];
+        for (int axis = 0; axis < 3; axis++)
+            point[axis] = corner >> axis & 1 ? volume->dims[axis] - 1 + beyond : -beyond;
+        pel_matrix_point(point, &world_from_voxel, point);
+        for (int axis = 0; axis < 3; axis++) {
+            bounds->low[axis] = fmin(bounds->low[axis], point[axis]);
+            bounds->high[axis] = fmax(bounds->high[axis], point[axis]);
+        }
+    }
+}
+
+bool pel_scene_bounds(const struct pel_scene *scene, struct pel_bounds *bounds) {
+    bool any = false;
+    for (int i = 0; i < scene->instance_count; i++) {
+        if (scene->instances[i].hidden)
+            continue;
+        struct pel_bounds one;
+        pel_instance_bounds(scene, i, &one);
+        for (int axis = 0; axis < 3; axis++) {
+            bounds->low[axis] = any ? fmin(bounds->low[axis], one.low[axis]) : one.low[axis];
+            bounds->high[axis] = any ? fmax(bounds->high[axis], one.high[axis]) : one.high[axis];
+        }
+        any = true;
+    }
+    return any;
+}

@@ -1,0 +1,126 @@
+// scene_file.c - scenes from JSON files, or made for volume files that come without one.
+//
+// A scene's JSON is parsed (jansson finds syntax errors), changed by overrides, checked and read as
+// a whole (scene_read_*.c), and only then are its volumes loaded (scene_load.c). Volume files in
+// place of a scene become JSON in memory and take the same way.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "world/scene.h"
+#include "world/scene_override.h"
+#include "world/scene_plan.h"
+
+// Scenes are written by people.
+enum { SCENE_BYTES_MAX = 16 << 20 };
+
+static const char *const scene_keys[] = {"$schema", "comment", "camera", "background",
+                                         "volumes", "render",  "output", NULL};
+
+static bool read_document(struct pel_scene *scene, struct pel_scene_plan *plan) {
+    const struct pel_scene_node *node = &plan->scene;
+    const char *schema;
+    return pel_node_check_object(node, scene_keys) && pel_node_get_text(node, "$schema", &schema) &&
+           pel_scene_read_settings(scene, node) && pel_scene_read_volumes(scene, plan) &&
+           pel_scene_read_camera(&plan->camera, node, scene);
+}
+
+static bool write_text(struct pel_scene *scene, const json_t *root) {
+    char *text = json_dumps(root, JSON_COMPACT);
+    scene->text = text ? pel_copy_text(text) : NULL;
+    free(text);
+    return scene->text || pel_fail(PEL_ERROR_MEMORY, "cannot allocate the scene's text");
+}
+
+// Makes a scene of parsed JSON; changes `root` by the overrides.
+static struct pel_scene *build(const struct pel_scene_document *document, json_t *root) {
+    for (int i = 0; i < document->override_count; i++)
+        if (!pel_scene_override(root, document->overrides[i]))
+            return NULL;
+    struct pel_scene_plan *plan = pel_allocate(1, sizeof *plan);
+    struct pel_scene *scene = plan ? pel_scene_create() : NULL;
+    if (scene) {
+        plan->scene = (struct pel_scene_node){.document = document, .value = root};
+        if (!read_document(scene, plan) || !pel_scene_load_volumes(scene, plan) ||
+            !pel_scene_place_camera(scene, &plan->camera) || !write_text(scene, root)) {
+            pel_scene_destroy(scene);
+            scene = NULL;
+        }
+    }
+    if (plan)
+        pel_scene_plan_finish(plan);
+    free(plan);
+    return scene;
+}
+
+static struct pel_scene *load_json(const char *path, const char *const *overrides,
+                                   int override_count) {
+    char *text = pel_file_read(path, SCENE_BYTES_MAX, NULL);
+    if (!text)
+        return NULL;
+    struct pel_scene *scene = NULL;
+    struct pel_scene_document document = {path, text, overrides, override_count};
+    json_error_t error;
+    json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, &error);
+    if (root)
+        scene = build(&document, root);
+    else
+        pel_fail(PEL_ERROR_FORMAT, "%s:%d:%d: %s", path, error.line, error.column, error.text);
+    json_decref(root);
+    free(text);
+    return scene;
+}
+
+// The JSON of a scene that shows these files: one as suits it, several in a colour each.
+static json_t *describe_files(const char *const *paths, int path_count) {
+    static const char *const palettes[] = {"grey", "hot",    "green", "magenta",
+                                           "cyan", "yellow", "blue",  "red"};
+    enum { PALETTE_COUNT = sizeof palettes / sizeof *palettes };
+    json_t *volumes = json_array();
+    for (int i = 0; i < path_count; i++) {
+        json_t *volume = json_pack("{s:s}", "file", paths[i]);
+        if (path_count > 1)
+            json_object_set_new(volume, "palette", json_string(palettes[i % PALETTE_COUNT]));
+        if (json_array_append_new(volumes, volume) != 0) {
+            json_decref(volumes);
+            pel_fail(PEL_ERROR_ARGUMENT, "%s: the name is not valid UTF-8", paths[i]);
+            return NULL;
+        }
+    }
+    json_t *root = json_pack("{s:{s:s}, s:o}", "camera", "view", "oblique", "volumes", volumes);
+    if (!root)
+        pel_fail(PEL_ERROR_MEMORY, "cannot allocate a scene");
+    return root;
+}
+
+struct pel_scene *pel_scene_load(const char *path, const char *const *overrides,
+                                 int override_count) {
+    return pel_scene_from_files(&path, 1, overrides, override_count);
+}
+
+struct pel_scene *pel_scene_from_files(const char *const *paths, int path_count,
+                                       const char *const *overrides, int override_count) {
+    if (path_count < 1 || path_count > PEL_VOLUME_MAX) {
+        pel_fail(PEL_ERROR_ARGUMENT, "%d files, outside 1..%d", path_count, PEL_VOLUME_MAX);
+        return NULL;
+    }
+    if (path_count == 1 && pel_path_has_extension(paths[0], ".json"))
+        return load_json(paths[0], overrides, override_count);
+    for (int i = 0; i < path_count; i++) {
+        if (pel_path_has_extension(paths[i], ".json")) {
+            pel_fail(PEL_ERROR_ARGUMENT, "%s: a scene cannot be combined with other files",
+                     paths[i]);
+            return NULL;
+        }
+    }
+    struct pel_scene *scene = NULL;
+    struct pel_scene_document document = {NULL, NULL, overrides, override_count};
+    json_t *root = describe_files(paths, path_count);
+    if (root)
+        scene = build(&document, root);
+    json_decref(root);
+    return scene;
+}

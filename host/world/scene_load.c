@@ -1,0 +1,135 @@
+// scene_load.c - the second pass over a scene: loads its volumes, each distinct one once, and
+// settles what depends on them.
+#include "world/scene_plan.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "base/memory.h"
+
+static bool same_text(const char *a, const char *b) {
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+static bool same_triple(const double a[3], const double b[3]) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+// "./a.nii" and "a.nii" are one file.
+static bool same_file(const char *a, const char *b) {
+    if (same_text(a, b) || !a || !b)
+        return same_text(a, b);
+    char *real_a = realpath(a, NULL), *real_b = realpath(b, NULL);
+    bool same = real_a && same_text(real_a, real_b);
+    free(real_a);
+    free(real_b);
+    return same;
+}
+
+static bool same_load_options(const struct pel_load_options *a, const struct pel_load_options *b) {
+    return a->time == b->time && a->channel == b->channel &&
+           a->split_channels == b->split_channels &&
+           memcmp(a->raw.dims, b->raw.dims, sizeof a->raw.dims) == 0 &&
+           a->raw.type == b->raw.type && same_triple(a->raw.spacing, b->raw.spacing) &&
+           same_triple(a->raw.origin, b->raw.origin) && a->raw.offset == b->raw.offset &&
+           a->raw.big_endian == b->raw.big_endian;
+}
+
+// True when both plans ask for the same voxels in the same place.
+static bool same_volume(const struct pel_volume_plan *a, const struct pel_volume_plan *b) {
+    return same_file(a->file, b->file) && same_text(a->kind, b->kind) &&
+           same_load_options(&a->load, &b->load) && a->generate.size == b->generate.size &&
+           a->generate.spacing_mm == b->generate.spacing_mm &&
+           a->generate.type == b->generate.type && a->generate.second == b->generate.second &&
+           same_triple(a->spacing, b->spacing);
+}
+
+// Directions and the centre of voxel (0,0,0) stay, the distances between voxels are replaced.
+static void replace_spacing(struct pel_volume *volume, const double spacing_mm[3]) {
+    double old_mm[3];
+    pel_volume_spacing(volume, old_mm);
+    for (int row = 0; row < 3; row++)
+        for (int axis = 0; axis < 3; axis++)
+            volume->world_from_voxel.m[row][axis] *= spacing_mm[axis] / old_mm[axis];
+}
+
+// Loads the volume of one instance, or finds it among those already there.
+static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, int instance) {
+    struct pel_volume_plan *wanted = &plan->volume[instance];
+    for (int i = 0; i < instance; i++) {
+        if (same_volume(wanted, &plan->volume[i])) {
+            scene->instances[instance].volume = scene->instances[i].volume;
+            return true;
+        }
+    }
+    struct pel_volume *volume = wanted->file ? pel_volume_load(wanted->file, &wanted->load)
+                                             : pel_volume_generate(wanted->kind, &wanted->generate);
+    if (!volume)
+        return pel_node_fail_in(&wanted->node);
+    if (wanted->spacing[0] > 0)
+        replace_spacing(volume, wanted->spacing);
+    int index = scene->volume_count++;
+    scene->volumes[index] = volume;
+    pel_volume_measure(volume, &scene->statistics[index]);
+    scene->instances[instance].volume = index;
+    return true;
+}
+
+static bool settle_transfer(struct pel_scene *scene, struct pel_scene_plan *plan, int index) {
+    struct pel_instance *instance = &scene->instances[index];
+    const struct pel_volume_plan *wanted = &plan->volume[index];
+    const struct pel_volume *volume = scene->volumes[instance->volume];
+    const struct pel_statistics *statistics = &scene->statistics[instance->volume];
+    if (!instance->transfer) {
+        instance->transfer = pel_scene_auto_transfer(volume, statistics, wanted->palette);
+        if (!instance->transfer)
+            return pel_node_fail_in(&wanted->node);
+    }
+    pel_transfer_resolve(instance->transfer, statistics);
+    if (wanted->opacity_unit_mm > 0)
+        instance->transfer->opacity_unit_mm = wanted->opacity_unit_mm;
+    if (volume->labels && !wanted->filter_given)
+        instance->filter = PEL_FILTER_NEAREST;
+    return true;
+}
+
+static bool settle_pose(struct pel_scene *scene, struct pel_scene_plan *plan, int index) {
+    struct pel_instance *instance = &scene->instances[index];
+    const struct pel_volume *volume = scene->volumes[instance->volume];
+    const struct pel_volume_plan *wanted = &plan->volume[index];
+    const struct pel_pose_plan *pose = &wanted->pose;
+    if (pose->file) {
+        const struct pel_volume *fixed =
+            pose->fixed < 0 ? NULL : scene->volumes[scene->instances[pose->fixed].volume];
+        if (pel_transform_load(&instance->transform, pose->file, volume, fixed))
+            return true;
+        struct pel_scene_node node;
+        pel_node_member(&node, &wanted->node, "transform");
+        return pel_node_fail_in(&node);
+    }
+    double about[3] = {pose->about[0], pose->about[1], pose->about[2]};
+    if (pose->about_centre) {
+        for (int axis = 0; axis < 3; axis++)
+            about[axis] = (volume->dims[axis] - 1) / 2.0;
+        pel_matrix_point(about, &volume->world_from_voxel, about);
+    }
+    // p' = M (p - about) + about = M p + (about - R about)
+    double turned[3];
+    pel_matrix_direction(turned, &pose->matrix, about);
+    instance->transform = pose->matrix;
+    for (int axis = 0; axis < 3; axis++)
+        instance->transform.m[axis][3] += about[axis] - turned[axis];
+    return true;
+}
+
+bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan) {
+    for (int i = 0; i < scene->instance_count; i++)
+        if (!load_volume(scene, plan, i))
+            return false;
+    for (int i = 0; i < scene->instance_count; i++)
+        if (!settle_transfer(scene, plan, i) || !settle_pose(scene, plan, i))
+            return false;
+    return true;
+}

@@ -1,0 +1,135 @@
+// scene_read_settings.c - the parts of a scene file that do not need its volumes: background,
+// render settings and output.
+#include "world/scene_plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+enum { PICTURE_MAX = 32768 };
+
+static const char *const render_keys[] = {"comment", "size",        "mixing", "step",
+                                          "phase",   "termination", "origin", NULL};
+static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
+
+// In the order of their enums.
+static const char *const mixing_names[] = {"sum", "over", NULL};
+static const char *const origin_names[] = {"volumes", "bounds", NULL};
+static const char *const alpha_names[] = {"straight", "premultiplied", NULL};
+
+static const char *const background_names[] = {"black", "white",   "grey", "red",
+                                               "green", "blue",    "cyan", "yellow",
+                                               "navy",  "magenta", "none", NULL};
+static const double background_values[][4] = {
+    {0, 0, 0, 1}, {1, 1, 1, 1}, {0.5, 0.5, 0.5, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1},
+    {0, 1, 1, 1}, {1, 1, 0, 1}, {0, 0, 0.2, 1},     {1, 0, 1, 1}, {0, 0, 0, 0}};
+
+// "#rrggbb" or "#rrggbbaa"; the alpha stays as it is in the former.
+static bool read_hex(const char *text, double rgba[4]) {
+    size_t digits = strlen(text + 1);
+    if ((digits != 6 && digits != 8) || strspn(text + 1, "0123456789abcdefABCDEF") != digits)
+        return false;
+    for (size_t i = 0; i < digits / 2; i++) {
+        char pair[3] = {text[1 + 2 * i], text[2 + 2 * i], '\0'};
+        rgba[i] = (double)strtol(pair, NULL, 16) / 255;
+    }
+    return true;
+}
+
+static bool read_background(double rgba[4], const struct pel_scene_node *scene) {
+    struct pel_scene_node node;
+    if (!pel_node_member(&node, scene, "background"))
+        return true;
+    if (json_is_array(node.value)) {
+        size_t count = json_array_size(node.value) == 4 ? 4 : 3;
+        return pel_node_check_numbers(&node, count, &pel_unit_number, rgba);
+    }
+    const char *text = json_string_value(node.value);
+    if (text && *text == '#')
+        return read_hex(text, rgba) ||
+               pel_node_fail(&node, "must be #rrggbb or #rrggbbaa, not \"%.40s\"", text);
+    int which;
+    if (!pel_node_check_name(&node, background_names, &which))
+        return false;
+    memcpy(rgba, background_values[which], sizeof background_values[which]);
+    return true;
+}
+
+static bool read_size(struct pel_render_settings *render, const struct pel_scene_node *object) {
+    struct pel_scene_node node;
+    double size[2];
+    const struct pel_range range = {.low = 1, .high = PICTURE_MAX};
+    if (!pel_node_member(&node, object, "size"))
+        return true;
+    if (!pel_node_check_numbers(&node, 2, &range, size))
+        return false;
+    if (size[0] != floor(size[0]) || size[1] != floor(size[1]))
+        return pel_node_fail(&node, "must be whole numbers, not %g x %g", size[0], size[1]);
+    render->width = (int)size[0];
+    render->height = (int)size[1];
+    return true;
+}
+
+static bool read_render(struct pel_render_settings *render, const struct pel_scene_node *scene) {
+    struct pel_scene_node node;
+    if (!pel_node_member(&node, scene, "render"))
+        return true;
+    const struct pel_range step_range = {.low = 0.001, .high = 1000};
+    const struct pel_range termination_range = {.low = 0, .high = 1, .low_open = true};
+    int mixing = (int)render->mixing, origin = (int)render->origin;
+    bool good =
+        pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
+        pel_node_get_name(&node, "mixing", mixing_names, &mixing) &&
+        pel_node_get_number(&node, "step", &step_range, &render->step) &&
+        pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
+        pel_node_get_number(&node, "termination", &termination_range, &render->termination) &&
+        pel_node_get_name(&node, "origin", origin_names, &origin);
+    render->mixing = (enum pel_mixing)mixing;
+    render->origin = (enum pel_sample_origin)origin;
+    return good;
+}
+
+static bool read_output_file(struct pel_output_settings *output,
+                             const struct pel_scene_node *object) {
+    struct pel_scene_node node;
+    const char *text;
+    if (!pel_node_member(&node, object, "file"))
+        return true;
+    if (!pel_node_get_text(object, "file", &text))
+        return false;
+    if (!*text)
+        return pel_node_fail(&node, "is empty");
+    // "-" is the standard output wherever the scene lies.
+    char *path = strcmp(text, "-") == 0 ? pel_copy_text(text) : pel_node_path(&node, text);
+    if (!path)
+        return false;
+    bool fits = strlen(path) < sizeof output->path;
+    if (fits)
+        strcpy(output->path, path);
+    free(path);
+    return fits || pel_node_fail(&node, "is longer than %zu bytes", sizeof output->path - 1);
+}
+
+static bool read_output(struct pel_output_settings *output, const struct pel_scene_node *scene) {
+    struct pel_scene_node node, depth;
+    if (!pel_node_member(&node, scene, "output"))
+        return true;
+    int alpha = 0;
+    if (!pel_node_check_object(&node, output_keys) || !read_output_file(output, &node) ||
+        !pel_node_get_integer(&node, "depth", 8, 16, &output->depth) ||
+        !pel_node_get_name(&node, "alpha", alpha_names, &alpha))
+        return false;
+    if (output->depth != 8 && output->depth != 16) {
+        pel_node_member(&depth, &node, "depth");
+        return pel_node_fail(&depth, "must be 8 or 16, not %d", output->depth);
+    }
+    output->premultiplied = alpha == 1;
+    return true;
+}
+
+bool pel_scene_read_settings(struct pel_scene *scene, const struct pel_scene_node *node) {
+    return read_background(scene->background, node) && read_render(&scene->render, node) &&
+           read_output(&scene->output, node);
+}

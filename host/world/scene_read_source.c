@@ -1,0 +1,127 @@
+// scene_read_source.c - where the voxels of a volume in a scene file come from: a file, with what
+// is needed to read it, or a generator.
+#include "world/scene_plan.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/text.h"
+
+static const char *const raw_keys[] = {"comment", "dims",   "type",   "spacing",
+                                       "origin",  "offset", "endian", NULL};
+static const char *const generate_keys[] = {"comment", "kind",   "size", "spacing",
+                                            "type",    "second", NULL};
+
+static const char *const endian_names[] = {"little", "big", NULL};
+
+// In the order of enum pel_voxel_type; generators make three of them.
+static const char *const type_names[] = {"uint8",   "int8", "uint16", "int16",
+                                         "float32", "rgb8", "rgba8",  NULL};
+static const char *const generate_type_names[] = {"uint8", "uint16", "float32", NULL};
+static const enum pel_voxel_type generate_types[] = {PEL_VOXEL_U8, PEL_VOXEL_U16, PEL_VOXEL_F32};
+
+enum { DIMENSION_MAX = 65536, GENERATE_MAX = 2048 };
+
+static bool read_dims(int dims[3], const struct pel_scene_node *raw) {
+    struct pel_scene_node node;
+    double numbers[3];
+    const struct pel_range range = {.low = 1, .high = DIMENSION_MAX};
+    if (!pel_node_member(&node, raw, "dims"))
+        return pel_node_fail(raw, "needs 'dims'");
+    if (!pel_node_check_numbers(&node, 3, &range, numbers))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        dims[i] = (int)numbers[i];
+        if (dims[i] != numbers[i])
+            return pel_node_fail(&node, "must be whole numbers, not %g", numbers[i]);
+    }
+    return true;
+}
+
+static bool read_raw(struct pel_load_options *load, const struct pel_scene_node *volume) {
+    struct pel_scene_node node, member;
+    if (!pel_node_member(&node, volume, "raw"))
+        return true;
+    // Doubles hold every offset a file can have.
+    const struct pel_range offset_range = {.low = 0, .high = 0x1p53};
+    double offset = 0;
+    int type = PEL_VOXEL_U8, endian = 0;
+    if (!pel_node_check_object(&node, raw_keys) || !read_dims(load->raw.dims, &node) ||
+        !pel_node_get_name(&node, "type", type_names, &type) ||
+        !pel_node_get_numbers(&node, "spacing", 3, &pel_positive_number, load->raw.spacing) ||
+        !pel_node_get_numbers(&node, "origin", 3, &pel_any_number, load->raw.origin) ||
+        !pel_node_get_number(&node, "offset", &offset_range, &offset) ||
+        !pel_node_get_name(&node, "endian", endian_names, &endian))
+        return false;
+    load->raw.type = (enum pel_voxel_type)type;
+    load->raw.offset = (size_t)offset;
+    load->raw.big_endian = endian == 1;
+    if (offset != (double)load->raw.offset) {
+        pel_node_member(&member, &node, "offset");
+        return pel_node_fail(&member, "must be a whole number, not %g", offset);
+    }
+    return true;
+}
+
+static bool read_file(struct pel_volume_plan *plan, const struct pel_scene_node *node) {
+    struct pel_scene_node file, channel;
+    const char *name;
+    if (!pel_node_get_text(node, "file", &name))
+        return false;
+    pel_node_member(&file, node, "file");
+    if (!*name)
+        return pel_node_fail(&file, "is empty");
+    plan->load.split_channels = pel_node_member(&channel, node, "channel");
+    if (!read_raw(&plan->load, node) ||
+        !pel_node_get_integer(node, "time", 0, INT_MAX, &plan->load.time) ||
+        !pel_node_get_integer(node, "channel", 0, INT_MAX, &plan->load.channel))
+        return false;
+    plan->file = pel_node_path(&file, name);
+    return plan->file != NULL;
+}
+
+// One of pel_generator_names.
+static bool read_kind(struct pel_volume_plan *plan, const struct pel_scene_node *node) {
+    struct pel_scene_node kind;
+    int which;
+    if (!pel_node_member(&kind, node, "kind"))
+        return pel_node_fail(node, "needs 'kind'");
+    const char *const *names = pel_generator_names();
+    if (!pel_node_check_name(&kind, names, &which))
+        return false;
+    plan->kind = names[which];
+    return true;
+}
+
+static bool read_generate(struct pel_volume_plan *plan, const struct pel_scene_node *node) {
+    struct pel_generate_options *options = &plan->generate;
+    int type = 0;
+    if (!pel_node_check_object(node, generate_keys) || !read_kind(plan, node) ||
+        !pel_node_get_integer(node, "size", 2, GENERATE_MAX, &options->size) ||
+        !pel_node_get_number(node, "spacing", &pel_positive_number, &options->spacing_mm) ||
+        !pel_node_get_name(node, "type", generate_type_names, &type) ||
+        !pel_node_get_bool(node, "second", &options->second))
+        return false;
+    options->type = generate_types[type];
+    return true;
+}
+
+bool pel_scene_read_source(struct pel_volume_plan *plan, const struct pel_scene_node *node) {
+    static const char *const only_files[] = {"raw", "time", "channel", NULL};
+    struct pel_scene_node file, generate, member;
+    bool has_file = pel_node_member(&file, node, "file");
+    bool has_generate = pel_node_member(&generate, node, "generate");
+    if (has_file && has_generate)
+        return pel_node_fail(&generate, "there is a 'file' already");
+    if (!has_file && !has_generate)
+        return pel_node_fail(node, "needs 'file' or 'generate'");
+    if (has_file)
+        return read_file(plan, node);
+    for (int i = 0; only_files[i]; i++)
+        if (pel_node_member(&member, node, only_files[i]))
+            return pel_node_fail(&member, "applies to files only");
+    return read_generate(plan, &generate);
+}

@@ -1,0 +1,128 @@
+// scene_read_volume.c - the `volumes` of a scene file, as far as they can be read without loading
+// any of them.
+#include "world/scene_plan.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "world/scene.h"
+
+static const char *const volume_keys[] = {
+    "comment", "file",    "generate", "raw",          "time",     "channel",
+    "name",    "visible", "spacing",  "transform",    "transfer", "density",
+    "extent",  "filter",  "palette",  "opacity_unit", NULL};
+
+// In the order of their enums.
+static const char *const extent_names[] = {"cell", "point", NULL};
+static const char *const filter_names[] = {"linear", "nearest", NULL};
+
+static bool read_palette(struct pel_volume_plan *plan, const struct pel_scene_node *volume) {
+    struct pel_scene_node node;
+    int which;
+    if (!pel_node_member(&node, volume, "palette"))
+        return true;
+    const char *const *names = pel_transfer_presets();
+    if (!pel_node_check_name(&node, names, &which))
+        return false;
+    plan->palette = names[which];
+    return true;
+}
+
+bool pel_scene_find_instance(const struct pel_scene *scene, const struct pel_scene_node *node,
+                             const char *name, int *instance) {
+    const char *names[PEL_VOLUME_MAX + 1] = {NULL};
+    int found = 0;
+    for (int i = 0; i < scene->instance_count; i++) {
+        names[i] = scene->instances[i].name;
+        if (strcmp(names[i], name) != 0)
+            continue;
+        *instance = i;
+        found++;
+    }
+    if (found == 1)
+        return true;
+    if (found > 1)
+        return pel_node_fail(node, "%d volumes are named '%.64s'", found, name);
+    const char *nearest = pel_text_nearest(name, names);
+    if (nearest)
+        return pel_node_fail(node, "no volume is named '%.64s'; did you mean '%s'", name, nearest);
+    return pel_node_fail(node, "no volume is named '%.64s'", name);
+}
+
+static bool read_name(struct pel_instance *instance, const struct pel_volume_plan *plan) {
+    struct pel_scene_node node;
+    const char *name = plan->file ? pel_path_leaf(plan->file) : plan->kind;
+    if (!pel_node_get_text(&plan->node, "name", &name))
+        return false;
+    bool given = pel_node_member(&node, &plan->node, "name");
+    if (given && (!*name || strlen(name) >= sizeof instance->name))
+        return pel_node_fail(&node, "must have 1 to %zu bytes, not %zu", sizeof instance->name - 1,
+                             strlen(name));
+    strncpy(instance->name, name, sizeof instance->name - 1);
+    return true;
+}
+
+static bool read_volume(struct pel_instance *instance, struct pel_volume_plan *plan) {
+    const struct pel_scene_node *node = &plan->node;
+    const struct pel_range density_range = {.low = 0, .high = 1e6};
+    struct pel_scene_node member;
+    bool visible = true;
+    int extent = PEL_EXTENT_CELL, filter = PEL_FILTER_LINEAR;
+    *instance = pel_instance_default();
+    if (!pel_node_check_object(node, volume_keys) || !pel_scene_read_source(plan, node) ||
+        !read_name(instance, plan) || !pel_node_get_bool(node, "visible", &visible) ||
+        !pel_node_get_numbers(node, "spacing", 3, &pel_positive_number, plan->spacing) ||
+        !pel_scene_read_pose(&plan->pose, node) ||
+        !pel_scene_read_transfer(&instance->transfer, node) || !read_palette(plan, node) ||
+        !pel_node_get_number(node, "opacity_unit", &pel_positive_number, &plan->opacity_unit_mm) ||
+        !pel_node_get_number(node, "density", &density_range, &instance->density) ||
+        !pel_node_get_name(node, "extent", extent_names, &extent) ||
+        !pel_node_get_name(node, "filter", filter_names, &filter))
+        return false;
+    plan->filter_given = pel_node_member(&member, node, "filter");
+    instance->hidden = !visible;
+    instance->extent = (enum pel_extent)extent;
+    instance->filter = (enum pel_filter)filter;
+    return true;
+}
+
+// An FSL matrix refers to another volume, which may come later in the list.
+static bool read_fixed(const struct pel_scene *scene, struct pel_volume_plan *plan, int self) {
+    struct pel_scene_node transform, node;
+    struct pel_pose_plan *pose = &plan->pose;
+    if (!pose->fixed_name)
+        return true;
+    pel_node_member(&transform, &plan->node, "transform");
+    pel_node_member(&node, &transform, "fixed");
+    if (!pel_scene_find_instance(scene, &node, pose->fixed_name, &pose->fixed))
+        return false;
+    return pose->fixed != self || pel_node_fail(&node, "'%s' is this volume", pose->fixed_name);
+}
+
+bool pel_scene_read_volumes(struct pel_scene *scene, struct pel_scene_plan *plan) {
+    if (!pel_node_member(&plan->volumes, &plan->scene, "volumes"))
+        return pel_node_fail(&plan->scene, "needs 'volumes'");
+    if (!pel_node_check_list(&plan->volumes, 1, PEL_VOLUME_MAX))
+        return false;
+    size_t count = json_array_size(plan->volumes.value);
+    for (size_t i = 0; i < count; i++) {
+        plan->volume[i].node = pel_node_element(&plan->volumes, i);
+        scene->instance_count = (int)i + 1;
+        if (!read_volume(&scene->instances[i], &plan->volume[i]))
+            return false;
+    }
+    for (size_t i = 0; i < count; i++)
+        if (!read_fixed(scene, &plan->volume[i], (int)i))
+            return false;
+    return true;
+}
+
+void pel_scene_plan_finish(struct pel_scene_plan *plan) {
+    for (int i = 0; i < PEL_VOLUME_MAX; i++) {
+        free(plan->volume[i].file);
+        free(plan->volume[i].pose.file);
+    }
+}

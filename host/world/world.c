@@ -1,0 +1,272 @@
+// world.c - a scene as the bytes that a kernel reads.
+#include "world/world.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "base/memory.h"
+#include "camera/camera.h"
+#include "world/strength.h"
+
+static float4 to_float4(const double v[3], double w) {
+    return (float4){(float)v[0], (float)v[1], (float)v[2], (float)w};
+}
+
+// a * x + b * y + c * z, for the camera's plane.
+static void combine(double out[3], const double x[3], double a, const double y[3], double b,
+                    const double z[3], double c) {
+    for (int i = 0; i < 3; i++)
+        out[i] = a * x[i] + b * y[i] + c * z[i];
+}
+
+// docs/picture.md, "Rays", with the window's shift folded into `forward` or `eye`.
+static bool fill_camera(struct camera *out, const struct pel_camera *camera,
+                        const struct pel_render_settings *settings, const double centre[3]) {
+    double forward[3], right[3], up[3];
+    if (!pel_camera_basis(camera, forward, right, up))
+        return false;
+    double aspect = (double)settings->width / settings->height;
+    double half =
+        camera->orthographic ? camera->height_mm / 2 : tan(camera->fov_deg * PEL_PI / 360);
+    const double zero[3] = {0};
+    double eye[3], across[3], upward[3], window[3];
+    combine(eye, camera->eye, 1, centre, -1, zero, 0);
+    combine(across, right, half * aspect, zero, 0, zero, 0);
+    combine(upward, up, half, zero, 0, zero, 0);
+    combine(window, camera->orthographic ? eye : forward, 1, right, 2 * half * camera->shift[0], up,
+            2 * half * camera->shift[1]);
+
+    *out = (struct camera){0};
+    if (camera->orthographic) {
+        out->eye = to_float4(window, 1);
+        out->eye_right = to_float4(across, 0);
+        out->eye_up = to_float4(upward, 0);
+        out->forward = to_float4(forward, 0);
+    } else {
+        out->eye = to_float4(eye, 1);
+        out->forward = to_float4(window, 0);
+        out->right = to_float4(across, 0);
+        out->up = to_float4(upward, 0);
+    }
+    return true;
+}
+
+// The smallest distance of neighbouring voxels over all visible instances.
+static double finest_spacing(const struct pel_scene *scene) {
+    double finest = INFINITY;
+    for (int k = 0; k < scene->instance_count; k++) {
+        if (scene->instances[k].hidden)
+            continue;
+        double spacing[3];
+        pel_volume_spacing(scene->volumes[scene->instances[k].volume], spacing);
+        for (int i = 0; i < 3; i++)
+            finest = fmin(finest, spacing[i]);
+    }
+    return isfinite(finest) ? finest : 1;
+}
+
+// What has to be added to a stored voxel to have the file's raw one, and what a reader multiplies
+// it by.
+static void stored_voxel(enum pel_voxel_type type, enum pel_reader reader, double *bias,
+                         double *factor) {
+    *bias = type == PEL_VOXEL_I8 ? -128 : type == PEL_VOXEL_I16 ? -32768 : 0;
+    *factor = 1;
+    if (reader == PEL_READER_IMAGE && type != PEL_VOXEL_F32)
+        *factor = pel_voxel_class(type) == 1 ? 65535 : 255;
+}
+
+// How the kernel finds the table's entry for what it reads.
+static void fill_table_address(struct part *part, const struct pel_volume *volume,
+                               const struct pel_table *table, int refinement,
+                               enum pel_reader reader) {
+    double bias, factor;
+    stored_voxel(volume->type, reader, &bias, &factor);
+    double entries = (table->entry_count - 1) * refinement / (table->high - table->low);
+    part->table_scale = (float)(volume->slope * factor * entries);
+    part->table_bias = (float)((volume->intercept + volume->slope * bias - table->low) * entries);
+    part->table_last = (float)((table->entry_count - 1) * refinement);
+    part->table_nearest = table->nearest;
+}
+
+// The parts of one instance, one for each slab of its volume.
+static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_layout *layout, const struct pel_instance *instance,
+                       const struct part *pattern, const double centre[3]) {
+    const struct pel_volume *volume = scene->volumes[instance->volume];
+    struct pel_matrix world_from_voxel =
+        pel_matrix_multiply(&instance->transform, &volume->world_from_voxel);
+    for (int i = 0; i < 3; i++)
+        world_from_voxel.m[i][3] -= centre[i];
+    struct pel_matrix voxel_from_world;
+    if (!pel_matrix_invert(&voxel_from_world, &world_from_voxel))
+        return pel_fail_in("placement of volume '%s'", instance->name);
+
+    double outer = instance->extent == PEL_EXTENT_CELL ? 0.5 : 0;
+    for (int s = 0; s < layout->slab_count; s++) {
+        const struct pel_slab *slab = &layout->slabs[s];
+        if (slab->volume != instance->volume)
+            continue;
+        if (world->bytes.part_count == WORLD_PART_MAX)
+            return pel_fail(PEL_ERROR_UNSUPPORTED, "the volumes are cut into more than %d parts",
+                            WORLD_PART_MAX);
+        struct part *part = &world->bytes.parts[world->bytes.part_count++];
+        *part = *pattern;
+        for (int i = 0; i < 3; i++)
+            part->voxel_from_world[i] = to_float4(voxel_from_world.m[i], voxel_from_world.m[i][3]);
+        double low[3], high[3], shift[3];
+        for (int i = 0; i < 3; i++) {
+            low[i] = -outer;
+            high[i] = volume->dims[i] - 1 + outer;
+            shift[i] = 1.0 + (double)slab->origin[i];
+        }
+        // Slabs meet at voxel centres, half a voxel before the first slice they own.
+        if (slab->first > 0)
+            low[2] = slab->first - 0.5;
+        if (slab->first + slab->count < volume->dims[2])
+            high[2] = slab->first + slab->count - 0.5;
+        shift[2] -= slab->first;
+        part->box_low = to_float4(low, 0);
+        part->box_high = to_float4(high, 0);
+        part->memory_from_voxel = to_float4(shift, 0);
+        part->row = volume->dims[0] + 2;
+        part->slice = (volume->dims[0] + 2) * (volume->dims[1] + 2);
+        part->buffer = slab->buffer;
+        part->offset = (u32)(slab->offset_bytes / pel_voxel_class_bytes(slab->class_index));
+        part->voxels = 1 << slab->class_index;
+        world->voxels |= part->voxels;
+    }
+    return true;
+}
+
+// Appends the instance's table to the world's and lets `part` refer to it.
+static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_layout *layout, const struct pel_instance *instance,
+                       const struct pel_table *table, struct part *part) {
+    int refinement = pel_strength_refinement(table, world->table_linear);
+    // One entry more: interpolation at the last one reads the next, at weight 0.
+    size_t entries = (size_t)(table->entry_count - 1) * (size_t)refinement + 2;
+    size_t words = world->table_words + entries * PEL_STRENGTH_WORDS;
+    u32 *tables = realloc(world->tables, words * sizeof *tables);
+    if (!tables)
+        return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
+    world->tables = tables;
+    u32 *start = tables + world->table_words;
+    const struct pel_strength_rule rule = {
+        .step_mm = world->bytes.step_mm,
+        .density = instance->density,
+        .opacity_unit_mm = instance->transfer->opacity_unit_mm,
+        .depth = world->depth,
+    };
+    pel_strength_write(start, table, refinement, &rule);
+    memcpy(start + (entries - 1) * PEL_STRENGTH_WORDS, start + (entries - 2) * PEL_STRENGTH_WORDS,
+           PEL_STRENGTH_WORDS * sizeof *start);
+    part->table = (u32)world->table_words;
+    world->table_words = words;
+    fill_table_address(part, scene->volumes[instance->volume], table, refinement, layout->reader);
+    return true;
+}
+
+// Builds every visible instance's table, so that the kernel's way of reading them can be decided.
+static bool build_tables(struct pel_table *tables, struct pel_world *world,
+                         const struct pel_scene *scene) {
+    for (int k = 0; k < scene->instance_count; k++) {
+        const struct pel_instance *instance = &scene->instances[k];
+        if (instance->hidden)
+            continue;
+        if (!pel_table_build(&tables[k], instance->transfer, scene->volumes[instance->volume]))
+            return pel_fail_in("volume '%s'", instance->name);
+        const struct pel_strength_rule rule = {
+            .step_mm = world->bytes.step_mm,
+            .density = instance->density,
+            .opacity_unit_mm = instance->transfer->opacity_unit_mm,
+        };
+        if (!pel_strength_is_gentle(&tables[k], &rule))
+            world->table_linear = true;
+    }
+    return true;
+}
+
+static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_bounds *bounds, const double centre[3]) {
+    const struct pel_render_settings *settings = &scene->render;
+    struct world *bytes = &world->bytes;
+    double low[3], high[3];
+    for (int i = 0; i < 3; i++) {
+        low[i] = bounds->low[i] - centre[i];
+        high[i] = bounds->high[i] - centre[i];
+    }
+    bytes->bounds_low = to_float4(low, 0);
+    bytes->bounds_high = to_float4(high, 0);
+    double alpha = scene->background[3];
+    bytes->background =
+        (float4){(float)(scene->background[0] * alpha), (float)(scene->background[1] * alpha),
+                 (float)(scene->background[2] * alpha), (float)alpha};
+    bytes->step_mm = (float)(settings->step * finest_spacing(scene));
+    bytes->phase = (float)settings->phase;
+    bytes->termination = settings->termination < 1 ? (float)settings->termination : 2;
+    bytes->origin_bounds = settings->origin == PEL_ORIGIN_BOUNDS;
+    bytes->width = settings->width;
+    bytes->height = settings->height;
+    bytes->tiles_x = (settings->width + TILE_PX - 1) / TILE_PX;
+}
+
+static bool fill_instances(struct pel_world *world, const struct pel_scene *scene,
+                           const struct pel_layout *layout, const struct pel_table *tables,
+                           const double centre[3]) {
+    for (int k = 0; k < scene->instance_count; k++) {
+        const struct pel_instance *instance = &scene->instances[k];
+        if (instance->hidden)
+            continue;
+        struct part pattern = {0};
+        pattern.filter = instance->filter == PEL_FILTER_NEAREST ? FILTERS_NEAREST : FILTERS_LINEAR;
+        world->filters |= pattern.filter;
+        if (!fill_table(world, scene, layout, instance, &tables[k], &pattern) ||
+            !fill_parts(world, scene, layout, instance, &pattern, centre))
+            return false;
+    }
+    return true;
+}
+
+bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
+                     const struct pel_layout *layout) {
+    memset(world, 0, sizeof *world);
+    struct pel_bounds bounds = {{0}, {0}};
+    int visible = 0;
+    for (int k = 0; k < scene->instance_count; k++)
+        visible += !scene->instances[k].hidden;
+    if (visible > 0 && !pel_scene_bounds(scene, &bounds))
+        return false;
+    double centre[3];
+    for (int i = 0; i < 3; i++)
+        centre[i] = (bounds.low[i] + bounds.high[i]) / 2;
+    fill_frame(world, scene, &bounds, centre);
+    if (!fill_camera(&world->bytes.camera, &scene->camera, &scene->render, centre))
+        return false;
+
+    world->mixing = scene->render.mixing == PEL_MIX_SUM ? MIXING_SUM : MIXING_OVER;
+    struct pel_table tables[PEL_VOLUME_MAX] = {{0}};
+    bool good = build_tables(tables, world, scene);
+    // A volume on its own, or one blended at a time, is looked up as opacity; slabs of one count as
+    // several.
+    int parts = 0;
+    for (int k = 0; k < scene->instance_count; k++)
+        for (int s = 0; s < layout->slab_count; s++)
+            parts += !scene->instances[k].hidden &&
+                     layout->slabs[s].volume == scene->instances[k].volume;
+    world->depth = world->mixing == MIXING_SUM && parts > 1;
+    good = good && fill_instances(world, scene, layout, tables, centre);
+    for (int k = 0; k < PEL_VOLUME_MAX; k++)
+        pel_table_finish(&tables[k]);
+    if (!good)
+        pel_world_finish(world);
+    return good;
+}
+
+void pel_world_finish(struct pel_world *world) {
+    free(world->tables);
+    world->tables = NULL;
+    world->table_words = 0;
+}

@@ -1,0 +1,27 @@
+// world.h - a scene as the bytes that a kernel reads. Knows no device.
+#ifndef PEL_WORLD_WORLD_H
+#define PEL_WORLD_WORLD_H
+
+#include "world/layout.h"
+
+// One frame's constant data, and which kernel it needs.
+struct pel_world {
+    struct world bytes;
+    u32 *tables; // owned; the words of all transfer functions, one after the other
+    size_t table_words;
+    // What the kernel must be able to do.
+    int voxels;        // classes of voxels, VOXELS_*
+    int filters;       // FILTERS_*
+    int mixing;        // MIXING_*
+    bool table_linear; // some table must be interpolated
+    bool depth;        // strengths are optical depths: more than one part, and extinctions add
+};
+
+// Fills a world from a scene whose volumes lie as `layout` says. Fails (MEMORY, ARGUMENT) on
+// settings that cannot be: a camera without direction, a singular placement, more parts than
+// WORLD_PART_MAX.
+bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
+                     const struct pel_layout *layout);
+void pel_world_finish(struct pel_world *world);
+
+#endif

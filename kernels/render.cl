@@ -1,0 +1,238 @@
+// render.cl - the only sampled ray loop.
+//
+// A work-item follows one packet of rays through all parts that they cross. Sample i of a ray lies at
+// t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. A ray is cut
+// into spans with a constant set of active parts; the cost of a sample follows that set. Each part has a
+// cursor; after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
+#include "classify.cl"
+#include "ray.cl"
+#include "traverse/none.cl"
+
+#ifndef MIXING
+#define MIXING MIXING_SUM // how volumes that overlap share a sample
+#endif
+#ifndef CAPACITY
+#define CAPACITY 1 // parts the kernel has room for: 1, 8 or WORLD_PART_MAX
+#endif
+
+// With one part there is nothing to add up, and its table holds opacities.
+#define STRENGTH_DEPTH (MIXING == MIXING_SUM && CAPACITY > 1)
+
+// Premultiplied colour and opacity of each lane, accumulated front to back.
+struct light {
+    real r, g, b, a;
+};
+
+// Puts a layer of straight colour and opacity a behind what has been gathered.
+INLINE void light_add(struct light *light, real r, real g, real b, real a) {
+    const real weight = (1.0f - light->a) * a;
+    light->r += weight * r;
+    light->g += weight * g;
+    light->b += weight * b;
+    light->a += weight;
+}
+
+// With room for one part only, the compiler must see that there is only one, or it keeps the cursor in
+// memory instead of registers.
+#define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
+#define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
+
+// The parts that some lane of the packet crosses, with their cursors.
+struct crossing {
+    struct cursor cursors[CAPACITY];
+    int parts[CAPACITY];
+    int count;
+};
+
+// Finds the parts that the packet crosses and where each ray's samples begin.
+INLINE void find_crossing(__constant struct world *world, const struct ray *ray,
+                          struct crossing *crossing) {
+    const struct span bounds = box_span(ray, world->bounds_low, world->bounds_high);
+    real t_near = bounds.near;
+    if (!world->origin_bounds) {
+        t_near = (real)(FLT_MAX);
+        for (int p = 0; p < world->part_count; p++) {
+            const struct ray ray_voxel = transform_ray(world->parts[p].voxel_from_world, ray);
+            const struct span span =
+                box_span(&ray_voxel, world->parts[p].box_low, world->parts[p].box_high);
+            const mask nearer = MASK(span.near < span.far) & MASK(span.near < t_near);
+            t_near = CHOOSE(t_near, span.near, nearer);
+        }
+    }
+    crossing->count = 0;
+    for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
+        __constant struct part *part = &world->parts[p];
+        const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
+        const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+        const struct cursor cursor = cursor_begin(world, part, &ray_voxel, &span, t_near);
+        if (any_lane(MASK(cursor.first < cursor.end))) {
+            const int c = CAPACITY == 1 ? 0 : crossing->count;
+            crossing->cursors[c] = cursor;
+            crossing->parts[c] = p;
+            crossing->count++;
+        }
+    }
+}
+
+// The parts that are active in the present span of each lane, as indices into the crossing. It lasts until some
+// lane reaches the sample `until`, where its set may change.
+struct active {
+    int list[CAPACITY];
+    int count;
+    integer until;
+};
+
+// Finds the span that begins at sample i.
+INLINE void begin_span(struct active *active, const struct crossing *crossing, integer i,
+                       mask alive) {
+    active->count = 0;
+    active->until = (integer)(SAMPLE_NEVER);
+    for (int c = 0; c < COUNTED(crossing->count); c++) {
+        const struct cursor *cursor = &crossing->cursors[c];
+        const mask before = MASK(i < cursor->first), inside = ~before & MASK(i < cursor->end);
+        const integer change = CHOOSE(cursor->end, cursor->first, before);
+        active->until = CHOOSE(active->until, min(active->until, change), before | inside);
+        if (any_lane(inside & alive))
+            active->list[active->count++] = c;
+    }
+}
+
+// The next sample, from i on, that may show something; SAMPLE_NEVER at the end.
+INLINE integer leap(const struct active *active, const struct crossing *crossing, integer i) {
+    integer next = active->until;
+    for (int a = 0; a < COUNTED(active->count); a++)
+        next = min(next, cursor_leap(&crossing->cursors[LISTED(active->list, a)], i));
+    return max(next, i);
+}
+
+// Follows the rays and returns the light they gather. Adds the samples taken to *samples.
+INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE const uint *table,
+                                MEMORY_PARAMETERS, const struct crossing *crossing,
+                                integer *samples) {
+    const real zero = (real)(0.0f);
+    struct light light = {zero, zero, zero, zero};
+    // The first sample of each ray, and the one behind its last.
+    integer i = (integer)(SAMPLE_NEVER), last = (integer)(0);
+    for (int c = 0; c < COUNTED(crossing->count); c++) {
+        i = min(i, crossing->cursors[c].first);
+        last = max(last, crossing->cursors[c].end);
+    }
+    mask alive = MASK(i < last);
+    struct active active;
+    active.until = CAPACITY == 1 ? last : i;
+
+    while (any_lane(alive)) {
+#if CAPACITY > 1
+        if (any_lane(alive & MASK(i >= active.until)))
+            begin_span(&active, crossing, i, alive);
+#endif
+        mask seen = (mask)(0);
+#if STRENGTH_DEPTH
+        struct light mixed = {zero, zero, zero, zero};
+#endif
+        for (int a = 0; a < COUNTED(active.count); a++) {
+            const int c = LISTED(active.list, a);
+            const struct cursor *cursor = &crossing->cursors[c];
+            __constant struct part *part = &world->parts[LISTED(crossing->parts, c)];
+            // Lanes outside the part wait at its nearest sample, so that none reads beyond it.
+            integer at = min(i, cursor->end - 1);
+            mask present = alive;
+#if CAPACITY > 1
+            at = max(at, cursor->first);
+            present &= MASK(at == i);
+            if (!any_lane(present))
+                continue;
+#endif
+            *samples -= present;
+            const real t = TO_REAL(at);
+            const struct sample sample =
+                sample_part(MEMORY_ARGUMENTS, part, cursor->ox + t * cursor->dx,
+                            cursor->oy + t * cursor->dy, cursor->oz + t * cursor->dz);
+            const struct entry entry = find_entry(part, sample.raw, &present);
+            const real strength = entry_strength(table, &entry);
+            const mask visible = present & MASK(strength > 0.0f);
+            if (!any_lane(visible))
+                continue;
+            seen |= visible;
+
+            real r, g, b;
+            entry_colour(table, &entry, &r, &g, &b);
+#if VOXELS & VOXELS_RGBA
+            if (IS_CLASS(part, VOXELS_RGBA)) {
+                r = sample.r;
+                g = sample.g;
+                b = sample.b;
+            }
+#endif
+            const real amount = CHOOSE(zero, strength, visible);
+#if STRENGTH_DEPTH
+            mixed.r += amount * r;
+            mixed.g += amount * g;
+            mixed.b += amount * b;
+            mixed.a += amount;
+#else
+            light_add(&light, r, g, b, amount);
+#endif
+        }
+
+        i -= alive; // one on, where the ray still runs
+        if (any_lane(seen)) {
+#if STRENGTH_DEPTH
+            const real share = 1.0f / fmax(mixed.a, FLT_MIN);
+            light_add(&light, mixed.r * share, mixed.g * share, mixed.b * share,
+                      1.0f - exp(-mixed.a));
+#endif
+            alive &= MASK(light.a <= world->termination);
+        } else {
+            i = leap(&active, crossing, i);
+        }
+        alive &= MASK(i < last);
+    }
+    return light;
+}
+
+// Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX pixels. Writes
+// premultiplied RGBA, rows from the top, and each packet's number of samples.
+__kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
+                     __global float4 *picture, __global uint *sample_counts, const uint first_tile,
+                     MEMORY_PARAMETERS) {
+    const uint packets_per_row = TILE_PX / PACKET_W;
+    const uint packets_per_tile = packets_per_row * (TILE_PX / PACKET_H);
+    const uint packet = get_global_id(0) % packets_per_tile;
+    const uint tile = get_global_id(0) / packets_per_tile + first_tile;
+    const int left = (int)(tile % world->tiles_x * TILE_PX + packet % packets_per_row * PACKET_W);
+    const int top = (int)(tile / world->tiles_x * TILE_PX + packet / packets_per_row * PACKET_H);
+    sample_counts[tile * packets_per_tile + packet] = 0;
+    if (left >= world->width || top >= world->height)
+        return;
+
+    const struct ray ray = camera_ray(world, left + LANE_X, top + LANE_Y);
+    struct crossing crossing;
+    find_crossing(world, &ray, &crossing);
+    integer samples = (integer)(0);
+    struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)};
+    if (crossing.count > 0)
+        light = follow_rays(world, table, MEMORY_ARGUMENTS, &crossing, &samples);
+
+    const float4 behind = world->background;
+    const real clear = 1.0f - light.a;
+    light.r += clear * behind.x;
+    light.g += clear * behind.y;
+    light.b += clear * behind.z;
+    light.a += clear * behind.w;
+    sample_counts[tile * packets_per_tile + packet] = (uint)sum_lanes(samples);
+#if LANES == 1
+    picture[top * world->width + left] = (float4)(light.r, light.g, light.b, light.a);
+#else
+    float r[LANES], g[LANES], b[LANES], a[LANES];
+    STORE_LANES(light.r, r);
+    STORE_LANES(light.g, g);
+    STORE_LANES(light.b, b);
+    STORE_LANES(light.a, a);
+    for (int lane = 0; lane < LANES; lane++) {
+        const int x = left + lane % PACKET_W, y = top + lane / PACKET_W;
+        if (x < world->width && y < world->height)
+            picture[y * world->width + x] = (float4)(r[lane], g[lane], b[lane], a[lane]);
+    }
+#endif
+}

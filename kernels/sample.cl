@@ -1,0 +1,52 @@
+// sample.cl - the raw value of a volume at a position in memory coordinates.
+//
+// The two readers give the same function, sample_part, and say in MEMORY_PARAMETERS what the kernel
+// has to be given for it.
+#ifndef SAMPLE_CL
+#define SAMPLE_CL
+
+#include "lanes.h"
+#include "shared/variant.h"
+#include "shared/world.h"
+
+#ifndef READER
+#define READER READER_BUFFER // where voxels are read from
+#endif
+#ifndef VOXELS
+#define VOXELS VOXELS_U8 // which classes of voxels occur
+#endif
+#ifndef FILTERS
+#define FILTERS FILTERS_LINEAR // which filters occur
+#endif
+
+// One class, or one filter, needs no question per sample.
+#if VOXELS == VOXELS_U8 || VOXELS == VOXELS_U16 || VOXELS == VOXELS_F32 || VOXELS == VOXELS_RGBA
+#define IS_CLASS(part, class) ((VOXELS & (class)) != 0)
+#else
+#define IS_CLASS(part, class) ((VOXELS & (class)) != 0 && (part)->voxels == (class))
+#endif
+#if FILTERS == FILTERS_LINEAR || FILTERS == FILTERS_NEAREST
+#define IS_NEAREST(part) (FILTERS == FILTERS_NEAREST)
+#else
+#define IS_NEAREST(part) ((part)->filter == FILTERS_NEAREST)
+#endif
+
+// A sample: the value that the transfer function asks for, and a colour volume's own colour in 0..1.
+struct sample {
+    real raw;
+#if VOXELS & VOXELS_RGBA
+    real r, g, b;
+#endif
+};
+
+INLINE real mix_lanes(real a, real b, real weight) {
+    return a + weight * (b - a);
+}
+
+#if READER == READER_BUFFER
+#include "sample_buffer.cl"
+#else
+#include "sample_image.cl"
+#endif
+
+#endif

@@ -1,0 +1,32 @@
+// variant.h - the numbers behind a kernel variant's names, the same for host and kernels.
+#ifndef SHARED_VARIANT_H
+#define SHARED_VARIANT_H
+
+// READER: where voxels are read from.
+#define READER_BUFFER 0 // plain memory and our own interpolation
+#define READER_IMAGE 1  // 3-D images and the device's filter
+
+// MIXING: how volumes that overlap share a sample (docs/picture.md).
+#define MIXING_OVER 0
+#define MIXING_SUM 1
+
+// VOXELS: which classes of voxels occur, one bit each. Signed integers are stored with their sign bit
+// flipped, as unsigned ones; RGB is stored as RGBA with the luminance as alpha.
+#define VOXELS_U8 1
+#define VOXELS_U16 2
+#define VOXELS_F32 4
+#define VOXELS_RGBA 8
+#define VOXEL_CLASS_COUNT 4
+
+// FILTERS: which filters occur, one bit each.
+#define FILTERS_LINEAR 1
+#define FILTERS_NEAREST 2
+
+// Pixels along a side of the square tiles in which work is handed out.
+#define TILE_PX 16
+
+// Voxels are bound as this many buffers, so that a quarter of the device's memory each, which OpenCL
+// guarantees, is all of it.
+#define VOXEL_BUFFERS 4
+
+#endif

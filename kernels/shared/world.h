@@ -1,0 +1,64 @@
+// world.h - what one frame is made of, as a kernel reads it from constant memory.
+//
+// Coordinates called `world` here are RAS millimetres relative to the middle of the scene, so that floats
+// keep their precision however far from the origin a scanner put its volumes. `memory` coordinates are
+// voxel coordinates shifted so that they count from the first stored voxel, border included.
+//
+//     struct world
+//       struct camera          the only part that changes when the camera moves
+//       bounds, step ...       one per frame
+//       struct part parts[]    one box of voxels each, in the order of the scene's list
+#ifndef SHARED_WORLD_H
+#define SHARED_WORLD_H
+
+#include "shared/types.h"
+
+// 32 volumes, and room for the slabs of volumes too large for one buffer.
+#define WORLD_PART_MAX 64
+
+// The ray of picture-plane coordinates (u, v), in -1..1 upwards and to the right, starts at
+// eye + u * eye_right + v * eye_up and runs along forward + u * right + v * up.
+struct camera {
+    float4 eye, eye_right, eye_up;
+    float4 forward, right, up;
+};
+
+SHARED_ASSERT(sizeof(struct camera) == 96, camera_size);
+
+// A whole volume, or a slab of one: the intersection of the volume's box with first <= z < last.
+struct part {
+    float4 voxel_from_world[3]; // rows of an affine matrix
+    float4 box_low, box_high;   // voxel coordinates
+    float4 memory_from_voxel;   // to be added to voxel coordinates
+    float table_scale;          // table entry = raw * table_scale + table_bias
+    float table_bias;
+    float table_last;           // the last entry's index
+    u32 table;                  // index of the table's first word
+    u32 offset;                 // element of voxel memory (0,0,0) in its buffer
+    i32 row, slice;             // elements from one row and slice to the next
+    i32 buffer;                 // which voxel buffer
+    i32 voxels;                 // one of VOXELS_*
+    i32 filter;                 // one of FILTERS_*
+    i32 table_nearest;          // 1: round the entry, 0: interpolate between entries
+    i32 pad;
+};
+
+SHARED_ASSERT(sizeof(struct part) == 144, part_size);
+
+struct world {
+    struct camera camera;
+    float4 bounds_low, bounds_high; // of all parts
+    float4 background;              // premultiplied
+    float step_mm;
+    float phase;       // of the first sample, in steps
+    float termination; // opacity beyond which a ray ends; above 1: never
+    i32 origin_bounds; // 1: samples count from the bounds, 0: from the nearest part
+    i32 width, height; // of the picture in pixels
+    i32 tiles_x;       // tiles in a row of the picture
+    i32 part_count;
+    struct part parts[WORLD_PART_MAX];
+};
+
+SHARED_ASSERT(sizeof(struct world) == 176 + 144 * WORLD_PART_MAX, world_size);
+
+#endif

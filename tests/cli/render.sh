@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# render.sh - volumes and scenes become pictures where they were asked for, and nowhere else.
+source "$SOURCE/tests/support/cli.bash"
+need_python
+need_device
+export PELLUCID_DEVICE=${PELLUCID_DEVICE:-cpu}
+
+mkdir data
+"$PELLUCID" generate box --size 16 -o data/box.nii.gz || complain "cannot generate"
+"$PELLUCID" generate sphere --size 16 -o data/sphere.nrrd || complain "cannot generate"
+small=(--size 32x24)
+
+# png NAME PYTHON - checks a PNG: `width`, `height`, `depth`, `colour`, and `texts` by keyword.
+png() {
+    python3 -c '
+import struct, sys, zlib
+data = open(sys.argv[1], "rb").read()
+assert data[:8] == b"\x89PNG\r\n\x1a\n"
+at, texts = 8, {}
+while at < len(data):
+    size, kind = struct.unpack(">I4s", data[at:at + 8])
+    body = data[at + 8:at + 8 + size]
+    assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0]
+    if kind == b"IHDR":
+        width, height, depth, colour = struct.unpack(">IIBB", body[:10])
+    elif kind == b"tEXt":
+        key, text = body.split(b"\0", 1)
+        texts[key.decode()] = text.decode("latin-1")
+    elif kind == b"zTXt":
+        key, text = body.split(b"\0", 1)
+        texts[key.decode()] = zlib.decompress(text[1:]).decode("latin-1")
+    at += 12 + size
+if not eval(sys.argv[2]):
+    sys.exit("not so: " + sys.argv[2])' "$1" "$2" 2>trouble || complain "$1: $(tail -1 trouble)"
+}
+
+# Without -o the picture is in the working directory, named after the first input; nobody is told on a pipe.
+expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}"
+[ -s out ] && complain "render prints on standard output: $(cat out)"
+[ -s err ] && complain "render talks without a terminal: $(cat err)"
+png box.png '(width, height, depth, colour) == (32, 24, 8, 6)'
+png box.png 'texts["Software"].startswith("Pellucid ") and texts["device"] and texts["driver"]'
+png box.png '__import__("json").loads(texts["scene"])["volumes"] and "eye" in __import__("json").loads(texts["camera"])'
+
+# The same scene on the same device is the same file.
+expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" -o again.png
+cmp -s box.png again.png || complain "two runs differ"
+
+# Options change the picture, and the picture's own scene says so.
+expect 0 '' render data/box.nii.gz "${small[@]}" --depth 16 --camera left --step 0.25 -o deep.png
+png deep.png 'depth == 16 and "left" in texts["scene"] and "0.25" in texts["scene"]'
+expect 0 '' render data/box.nii.gz "${small[@]}" --camera eye=0,-200,0,target=0,0,0,fov=30 -o eye.png
+png eye.png '__import__("json").loads(texts["camera"])["eye"] == [0, -200, 0]'
+png eye.png '__import__("json").loads(texts["camera"])["fov"] == 30'
+for option in '--mix over' '--filter nearest' '--termination 1' '--phase 0.25' '--density 0.5' '--background white' \
+    '--background 0.1,0.2,0.3' '--background #102030' '--transfer viridis' '--alpha premultiplied' '--reader buffer' \
+    '--lanes 4' '--lanes 1' '--work-group 1' '--set camera.fov=20' '--quiet'; do
+    # shellcheck disable=SC2086
+    expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" $option -o option.png
+done
+
+# What the scene refuses is refused, with the key and the option's value.
+expect 2 '^pellucid: .*mixing.*blend' render data/box.nii.gz --mix blend
+expect 2 '^pellucid: .*filter' render data/box.nii.gz --filter cubist
+expect 2 '^pellucid: .*camera\.view' render data/box.nii.gz --camera behind
+expect 2 '^pellucid: .*no_such_key' render data/box.nii.gz --set no_such_key=1
+expect 2 '^pellucid: .*step' render data/box.nii.gz --step 0
+
+# A scene says where its picture goes; -o overrules it.
+echo '{"volumes": [{"generate": {"kind": "box", "size": 12}}], "render": {"size": [20, 10]}, "output": {"file": "said.png"}}' >scene.json
+expect 0 '' render scene.json
+png said.png '(width, height) == (20, 10)'
+expect 0 '' render scene.json -o other.tif
+[ -s other.tif ] || complain "no other.tif"
+
+# PPM on standard output: a header and three bytes a pixel.
+expect 0 '^P6$' render data/box.nii.gz "${small[@]}" -o -
+python3 -c '
+data = open("out", "rb").read()
+assert data.startswith(b"P6\n32 24\n255\n") and len(data) == len(b"P6\n32 24\n255\n") + 32 * 24 * 3
+assert any(data[13:])' 2>trouble || complain "-o -: $(tail -1 trouble)"
+expect 2 '^pellucid: --json and the picture both want' render data/box.nii.gz -o - --json
+
+# What a program gets.
+expect 0 '' render data/box.nii.gz "${small[@]}" -o json.png --json
+check_json 'x["picture"] == "json.png" and (x["width"], x["height"], x["rays"]) == (32, 24, 32 * 24)'
+check_json 'x["samples"] > 0 and x["device_bytes"] >= 16 ** 3 and x["uploaded_bytes"] >= 16 ** 3'
+check_json 'x["reader"] in ("buffer", "image") and x["lanes"] in (1, 4, 8, 16) and x["work_group"] >= 1'
+check_json 'all(x[t + "_ms"] >= 0 for t in "load prepare build upload render download save total".split())'
+check_json 'x["device"] and x["driver"]'
+
+# Before anything is rendered: names nobody knows, folders that are not there, the input itself.
+expect 2 '^pellucid: box\.jpg: a picture.s name ends in \.png, \.tif, \.tiff or \.ppm' render data/box.nii.gz -o box.jpg
+expect 4 '^pellucid: nowhere/box\.png: ' render data/box.nii.gz -o nowhere/box.png
+"$PELLUCID" generate box --size 8 -o stack.tif || complain "cannot generate"
+cp stack.tif kept.tif
+expect 2 '^pellucid: stack\.tif: the picture would overwrite its input' render stack.tif -o stack.tif
+cmp -s stack.tif kept.tif || complain "the input was overwritten"
+[ -z "$(find . -name '*.??????' -newer stack.tif -name '*g.*')" ] || complain "temporaries are left: $(ls)"
+exit $failed

@@ -1,0 +1,105 @@
+// path.c - docs/picture.md, "Boxes and spans" and "Samples".
+#include "reference/path.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/math.h"
+#include "reference/reference.h"
+
+static void init_body(struct reference_body *body, const struct pel_scene *scene,
+                      const struct pel_instance *instance) {
+    body->instance = instance;
+    body->volume = scene->volumes[instance->volume];
+    body->world_from_voxel =
+        pel_matrix_multiply(&instance->transform, &body->volume->world_from_voxel);
+    if (!pel_matrix_invert(&body->voxel_from_world, &body->world_from_voxel))
+        abort();
+    double margin = instance->extent == PEL_EXTENT_CELL ? 0.5 : 0;
+    for (int c = 0; c < 3; c++) {
+        body->low[c] = -margin;
+        body->high[c] = body->volume->dims[c] - 1 + margin;
+    }
+    reference_table_init(&body->table, instance->transfer, body->volume);
+}
+
+static double least_spacing(const struct reference_body *body) {
+    double least = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double column[3];
+        for (int c = 0; c < 3; c++)
+            column[c] = body->world_from_voxel.m[c][axis];
+        least = fmin(least, pel_length(column));
+    }
+    return least;
+}
+
+static void include_corners(struct reference *reference, const struct reference_body *body) {
+    for (int n = 0; n < 8; n++) {
+        double corner[3];
+        for (int c = 0; c < 3; c++)
+            corner[c] = n >> c & 1 ? body->high[c] : body->low[c];
+        pel_matrix_point(corner, &body->world_from_voxel, corner);
+        for (int c = 0; c < 3; c++) {
+            reference->low[c] = fmin(reference->low[c], corner[c]);
+            reference->high[c] = fmax(reference->high[c], corner[c]);
+        }
+    }
+}
+
+struct reference *reference_create(const struct pel_scene *scene) {
+    struct reference *reference = calloc(1, sizeof *reference);
+    if (!reference)
+        abort();
+    *reference = (struct reference){
+        .scene = scene,
+        .step_mm = INFINITY,
+        .low = {INFINITY, INFINITY, INFINITY},
+        .high = {-INFINITY, -INFINITY, -INFINITY},
+    };
+    for (int i = 0; i < scene->instance_count; i++) {
+        if (scene->instances[i].hidden)
+            continue;
+        struct reference_body *body = &reference->bodies[reference->body_count++];
+        init_body(body, scene, &scene->instances[i]);
+        include_corners(reference, body);
+        reference->step_mm = fmin(reference->step_mm, scene->render.step * least_spacing(body));
+    }
+    return reference;
+}
+
+void reference_destroy(struct reference *reference) {
+    if (!reference)
+        return;
+    for (int k = 0; k < reference->body_count; k++)
+        reference_table_finish(&reference->bodies[k].table);
+    free(reference);
+}
+
+bool reference_begin(struct reference_path *path, const struct reference *reference, double x_px,
+                     double y_px) {
+    const struct pel_scene *scene = reference->scene;
+    struct reference_ray ray =
+        reference_camera_ray(&scene->camera, scene->render.width, scene->render.height, x_px, y_px);
+    path->t_near = INFINITY;
+    path->t_far = -INFINITY;
+    for (int k = 0; k < reference->body_count; k++) {
+        const struct reference_body *body = &reference->bodies[k];
+        path->rays[k] = reference_map_ray(&body->voxel_from_world, &ray);
+        path->spans[k] = reference_clip(&path->rays[k], body->low, body->high);
+        if (path->spans[k].t_in < path->spans[k].t_out) {
+            path->t_near = fmin(path->t_near, path->spans[k].t_in);
+            path->t_far = fmax(path->t_far, path->spans[k].t_out);
+        }
+    }
+    if (path->t_near >= path->t_far)
+        return false;
+    if (scene->render.origin == PEL_ORIGIN_BOUNDS)
+        path->t_near = reference_clip(&ray, reference->low, reference->high).t_in;
+    return true;
+}
+
+double reference_sample_t(const struct reference *reference, const struct reference_path *path,
+                          double i) {
+    return path->t_near + (i + reference->scene->render.phase) * reference->step_mm;
+}

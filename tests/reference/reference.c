@@ -1,0 +1,118 @@
+// reference.c - the loop over the samples of a ray, and over the pixels of a picture.
+#include "reference/reference.h"
+
+#include <stdlib.h>
+
+#include "reference/mix.h"
+#include "reference/path.h"
+
+// The media present at t, in the order of the list; returns how many. `*taken` counts absent
+// samples too.
+static int media_at(struct reference_medium media[], const struct reference *reference,
+                    const struct reference_path *path, double t, uint64_t *taken) {
+    int count = 0;
+    for (int k = 0; k < reference->body_count; k++) {
+        const struct reference_body *body = &reference->bodies[k];
+        if (t < path->spans[k].t_in || t >= path->spans[k].t_out)
+            continue;
+        double p_voxel[3];
+        struct reference_sample sample;
+        reference_point_at(p_voxel, &path->rays[k], t);
+        ++*taken;
+        if (reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel))
+            media[count++] = reference_classify(body->instance, &body->table, &sample);
+    }
+    return count;
+}
+
+static void layer_at(double layer[4], const struct reference *reference,
+                     const struct reference_path *path, double t, uint64_t *taken) {
+    struct reference_medium media[PEL_VOLUME_MAX];
+    int count = media_at(media, reference, path, t, taken);
+    reference_mix(layer, reference->scene->render.mixing, media, count, reference->step_mm);
+}
+
+static void background_layer(double layer[4], const struct pel_scene *scene) {
+    const double *background = scene->background;
+    for (int c = 0; c < 3; c++)
+        layer[c] = background[3] * background[c];
+    layer[3] = background[3];
+}
+
+static struct pel_image *render(const struct pel_scene *scene, bool back_to_front) {
+    struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
+    if (!image)
+        abort();
+    struct reference *reference = reference_create(scene);
+    float *pixel = image->rgba;
+    for (int y = 0; y < image->height; y++) {
+        for (int x = 0; x < image->width; x++) {
+            double rgba[4];
+            if (back_to_front)
+                reference_cast_back_to_front(reference, x, y, rgba);
+            else
+                reference_cast(reference, x, y, rgba, NULL);
+            for (int c = 0; c < 4; c++)
+                *pixel++ = (float)rgba[c];
+        }
+    }
+    reference_destroy(reference);
+    return image;
+}
+
+void reference_cast(const struct reference *reference, double x_px, double y_px, double rgba[4],
+                    uint64_t *samples) {
+    const struct pel_render_settings *settings = &reference->scene->render;
+    uint64_t taken = 0;
+    double layer[4];
+    for (int c = 0; c < 4; c++)
+        rgba[c] = 0;
+
+    struct reference_path path;
+    if (reference_begin(&path, reference, x_px, y_px)) {
+        for (double i = 0; reference_sample_t(reference, &path, i) < path.t_far; i++) {
+            layer_at(layer, reference, &path, reference_sample_t(reference, &path, i), &taken);
+            reference_compose(rgba, rgba, layer);
+            if (rgba[3] > settings->termination && settings->termination != 1)
+                break;
+        }
+    }
+
+    background_layer(layer, reference->scene);
+    reference_compose(rgba, rgba, layer);
+    if (samples)
+        *samples += taken;
+}
+
+void reference_cast_back_to_front(const struct reference *reference, double x_px, double y_px,
+                                  double rgba[4]) {
+    background_layer(rgba, reference->scene);
+    struct reference_path path;
+    if (!reference_begin(&path, reference, x_px, y_px))
+        return;
+
+    double count = 0;
+    while (reference_sample_t(reference, &path, count) < path.t_far)
+        count++;
+    uint64_t taken = 0;
+    while (count-- > 0) {
+        double layer[4];
+        layer_at(layer, reference, &path, reference_sample_t(reference, &path, count), &taken);
+        reference_compose(rgba, layer, rgba);
+    }
+}
+
+void reference_ray(const struct pel_scene *scene, double x_px, double y_px, double rgba[4],
+                   uint64_t *samples) {
+    struct reference *reference = reference_create(scene);
+    reference_cast(reference, x_px, y_px, rgba, samples);
+    reference_destroy(reference);
+}
+
+struct pel_image *reference_render(const struct pel_scene *scene) {
+    return render(scene, false);
+}
+
+struct pel_image *reference_render_back_to_front(const struct pel_scene *scene) {
+    return render(scene, true);
+}

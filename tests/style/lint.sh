@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# lint.sh - every kernel file compiles alone, with clang as a plain OpenCL C 1.2 compiler, in the variants that differ
+# most. A file whose head says "Included by X.cl" is a part of that one and is compiled with it.
+set -eu
+cd "$SOURCE"
+command -v clang >/dev/null || { echo "skipped: clang is not installed"; exit 77; }
+mapfile -t files < <(find kernels -name '*.cl' -exec grep -L 'Included by [a-z_]*\.cl' {} + 2>/dev/null | sort)
+[ ${#files[@]} -gt 0 ] || { echo "skipped: there are no kernels"; exit 77; }
+failed=0
+for lanes in 1 4 8 16; do
+    for reader in 0 1; do
+        for others in '' '-DVOXELS=15 -DFILTERS=3 -DMIXING=0' '-DVOXELS=15 -DFILTERS=3 -DMIXING=1'; do
+            for file in "${files[@]}"; do
+                # shellcheck disable=SC2086
+                if ! clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra -Werror \
+                    -Wno-unused-function -Wno-unused-parameter -Ikernels -DLANES=$lanes -DREADER=$reader $others \
+                    "$file"; then
+                    echo "$file: -DLANES=$lanes -DREADER=$reader $others"
+                    failed=1
+                fi
+            done
+        done
+    done
+done
+exit $failed
