@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "volume/file_list.h"
 #include "volume/source.h"
 
@@ -14,8 +15,8 @@
 enum { HEADER_BYTES_MAX = 1 << 20, LINE_BYTES_MAX = 512, PATH_BYTES_MAX = 768 };
 
 // Adds up the data files, each of which must be a regular one.
-static bool measure_files(const struct pel_file_list *list, const char *path, size_t *data_bytes) {
-    *data_bytes = 0;
+static bool measure_files(struct pel_nrrd_data *data, const struct pel_file_list *list,
+                          const char *path) {
     for (int i = 0; i < list->count; i++) {
         if (strcmp(list->names[i], "-") == 0)
             return pel_fail(PEL_ERROR_UNSUPPORTED, "its data file is the standard input");
@@ -25,10 +26,13 @@ static bool measure_files(const struct pel_file_list *list, const char *path, si
         if (good && strlen(file) > PATH_BYTES_MAX)
             good = pel_fail(PEL_ERROR_UNSUPPORTED, "a data file's path has more than %d bytes",
                             PATH_BYTES_MAX);
-        free(file);
+        if (good && list->count == 1)
+            data->path = file;
+        else
+            free(file);
         if (!good)
             return false;
-        *data_bytes += bytes;
+        data->bytes += bytes;
     }
     return true;
 }
@@ -53,8 +57,8 @@ static bool check_line(const char *line, size_t length) {
     return true;
 }
 
-static bool check_data_file(const char *value, size_t length, const char *next_line,
-                            const char *path, size_t *data_bytes) {
+static bool check_data_file(struct pel_nrrd_data *data, const char *value, size_t length,
+                            const char *next_line, const char *path) {
     char copy[LINE_BYTES_MAX + 1];
     while (length > 0 && strchr(" \t\r", value[length - 1]))
         length--;
@@ -63,15 +67,15 @@ static bool check_data_file(const char *value, size_t length, const char *next_l
     if (strncmp(copy, "SKIPLIST", 8) == 0)
         return pel_fail(PEL_ERROR_UNSUPPORTED, "data file SKIPLIST is not read");
     struct pel_file_list list = {0};
-    bool good =
-        pel_file_list_parse(&list, copy, next_line) && measure_files(&list, path, data_bytes);
+    bool good = pel_file_list_parse(&list, copy, next_line) && measure_files(data, &list, path);
     pel_file_list_finish(&list);
     return good;
 }
 
 // Goes over the lines up to the blank one. `text` has a zero byte behind it.
-static bool check_lines(const char *text, const char *path, bool complete, size_t *data_bytes) {
-    bool detached = false;
+static bool check_lines(struct pel_nrrd_data *data, const char *text, const char *path,
+                        size_t file_bytes) {
+    bool detached = false, complete = file_bytes <= HEADER_BYTES_MAX;
     const char *line = text;
     while (*line && *line != '\n' && strncmp(line, "\r\n", 2) != 0) {
         size_t length = strcspn(line, "\n");
@@ -87,7 +91,7 @@ static bool check_lines(const char *text, const char *path, bool complete, size_
             if (is_list && !complete)
                 return pel_fail(PEL_ERROR_FORMAT, "a header of more than %d bytes",
                                 HEADER_BYTES_MAX);
-            if (!check_data_file(value, length - (size_t)(value - line), next, path, data_bytes))
+            if (!check_data_file(data, value, length - (size_t)(value - line), next, path))
                 return false;
             // What follows a list are its names.
             if (is_list)
@@ -95,19 +99,32 @@ static bool check_lines(const char *text, const char *path, bool complete, size_
         }
         line = next;
     }
-    return *line || complete ||
-           pel_fail(PEL_ERROR_FORMAT, "a header of more than %d bytes", HEADER_BYTES_MAX);
+    if (!*line && !complete)
+        return pel_fail(PEL_ERROR_FORMAT, "a header of more than %d bytes", HEADER_BYTES_MAX);
+    if (detached)
+        return true;
+    // The voxels follow the blank line, if there is one.
+    line += *line == '\r';
+    data->offset = (size_t)(line - text) + (*line == '\n');
+    data->bytes = file_bytes;
+    data->path = pel_copy_text(path);
+    return data->path != NULL;
 }
 
-bool pel_nrrd_guard(const char *path, size_t *data_bytes) {
-    size_t bytes;
+bool pel_nrrd_guard(struct pel_nrrd_data *data, const char *path) {
+    size_t file_bytes, bytes;
+    *data = (struct pel_nrrd_data){0};
     if (strlen(path) > PATH_BYTES_MAX)
         return pel_fail(PEL_ERROR_UNSUPPORTED, "a path of more than %d bytes", PATH_BYTES_MAX);
-    if (!pel_file_size(path, data_bytes))
+    if (!pel_file_size(path, &file_bytes))
         return false;
-    bool complete = *data_bytes <= HEADER_BYTES_MAX;
     char *text = pel_source_head(path, HEADER_BYTES_MAX, &bytes);
-    bool good = text && check_lines(text, path, complete, data_bytes);
+    bool good = text && check_lines(data, text, path, file_bytes);
     free(text);
     return good;
+}
+
+void pel_nrrd_data_finish(struct pel_nrrd_data *data) {
+    free(data->path);
+    data->path = NULL;
 }

@@ -9,8 +9,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Fails (FORMAT, FILE, UNSUPPORTED) for a header that teem must not see. `*data_bytes` is the size
-// of all data files together, or of the file itself when the voxels follow the header.
-bool pel_nrrd_guard(const char *path, size_t *data_bytes);
+// Where the voxels are.
+struct pel_nrrd_data {
+    size_t bytes; // of all data files together, or of the file itself when voxels follow the header
+    char *path;   // owned; the file with the voxels, NULL when there are several
+    size_t offset; // of the first byte behind the header in that file, or 0
+};
+
+// Fails (FORMAT, FILE, UNSUPPORTED) for a header that teem must not see. Finish the data in any
+// case.
+bool pel_nrrd_guard(struct pel_nrrd_data *data, const char *path);
+void pel_nrrd_data_finish(struct pel_nrrd_data *data);
 
 #endif

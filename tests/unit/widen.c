@@ -89,10 +89,11 @@ static void test_selection_of_a_channel(void **state) {
                                    0, 7, 0, 8, 0, 9, 1, 0, 1, 1, 1, 2};
     struct pel_selection selection = {.dims = {2, 2, 1},
                                       .element = PEL_ELEMENT_U16,
+                                      .first = 1,
                                       .stride = {3, 6, 12},
                                       .components = 1,
                                       .swap = true};
-    struct pel_volume *volume = pel_volume_select("x", &selection, block + 2);
+    struct pel_volume *volume = pel_volume_select("x", &selection, block);
     assert_int_equal(volume->type, PEL_VOXEL_U16);
     const uint16_t expected[] = {2, 5, 8, 257};
     assert_memory_equal(volume->voxels, expected, sizeof expected);
