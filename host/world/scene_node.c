@@ -260,7 +260,7 @@ bool pel_node_get_integer(const struct pel_scene_node *object, const char *key, 
     struct pel_scene_node node;
     if (!pel_node_member(&node, object, key))
         return true;
-    double number;
+    double number = 0;
     if (!check_number(&node, &(struct pel_range){.low = low, .high = high}, &number))
         return false;
     if (number != floor(number))
