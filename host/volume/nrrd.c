@@ -20,6 +20,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "volume/nrrd_guard.h"
+#include "volume/nrrd_unpack.h"
 #include "volume/source.h"
 
 enum { BZIP2_RATIO = 65536, BZIP2_BLOCK_BYTES = 46000000 };
@@ -30,8 +31,7 @@ static pthread_mutex_t teem_lock = PTHREAD_MUTEX_INITIALIZER;
 // How the voxels are stored.
 struct coding {
     const NrrdEncoding *encoding;
-    unsigned line_skip;
-    long byte_skip;
+    struct pel_nrrd_skip skip;
     bool swap; // the other byte order than this machine's
 };
 
@@ -67,8 +67,7 @@ static bool read_header(Nrrd *nrrd, const char *path, struct coding *coding) {
     bool good = nrrdLoad(nrrd, path, state) == 0 || fail_from_teem();
     *coding = (struct coding){
         .encoding = state->encoding,
-        .line_skip = state->lineSkip,
-        .byte_skip = state->byteSkip,
+        .skip = {.lines = state->lineSkip, .bytes = state->byteSkip},
         .swap = state->endian != airEndianUnknown && state->endian != airMyEndian(),
     };
     if (good && !state->encoding->available())
@@ -76,26 +75,6 @@ static bool read_header(Nrrd *nrrd, const char *path, struct coding *coding) {
                         state->encoding->name);
     nrrdIoStateNix(state);
     return good;
-}
-
-// Inflates the one data file of gzip encoding, which teem can too, but loses 60 KB of memory over
-// each damaged one. Returns voxels to free(), in the file's byte order.
-static void *inflate_data(const struct pel_nrrd_data *data, unsigned line_skip, size_t bytes) {
-    size_t file_bytes, start = data->offset;
-    char *file = pel_file_read(data->path, PTRDIFF_MAX, &file_bytes);
-    void *block = file ? pel_allocate_voxels(bytes) : NULL;
-    bool good = block != NULL;
-    for (unsigned i = 0; good && i < line_skip; i++) {
-        const char *end = memchr(file + start, '\n', file_bytes - start);
-        good = end || pel_fail(PEL_ERROR_FORMAT, "ends before the %u lines to skip", line_skip);
-        start = end ? (size_t)(end - file) + 1 : start;
-    }
-    if (!good || !pel_inflate(block, bytes, file + start, file_bytes - start)) {
-        free(block);
-        block = NULL;
-    }
-    free(file);
-    return block;
 }
 
 // Lets teem read header and voxels. Returns the voxels to free(), in this machine's byte order.
@@ -360,9 +339,11 @@ static struct pel_volume *read_volume(Nrrd *header, struct pel_nrrd_data *data, 
         !pel_select_channel(&selection, name, axis_size(header, axes.channel),
                             axes.channel < 0 ? 0 : strides[axes.channel], options))
         return NULL;
-    bool inflate = coding.encoding == nrrdEncodingGzip && data->path && coding.byte_skip == 0;
-    void *block = inflate ? inflate_data(data, coding.line_skip, bytes) : read_data(path, bytes);
-    selection.swap = inflate && coding.swap;
+    bool bzip2 = coding.encoding == nrrdEncodingBzip2;
+    bool packed = bzip2 || coding.encoding == nrrdEncodingGzip;
+    void *block =
+        packed ? pel_nrrd_unpack(data, bzip2, &coding.skip, bytes) : read_data(path, bytes);
+    selection.swap = packed && coding.swap;
     struct pel_volume *volume = block ? pel_volume_select(name, &selection, block) : NULL;
     free(block);
     if (volume && !place(volume, header, &axes)) {

@@ -1,12 +1,15 @@
 // nrrd_header.c - mistakes in NRRD headers that teem must not see.
 //
 // teem 1.12 reports them, but never frees what it holds at that moment: quoted words without an
-// end, more space units than dimensions of space, and fields that count axes before `dimension`.
+// end, more space units than dimensions of space, fields that count axes before `dimension`, and
+// axes whose size is not that of their kind.
 #include "volume/nrrd_header.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+
+#include <teem/nrrd.h>
 
 #include "base/error.h"
 
@@ -14,6 +17,7 @@
 struct progress {
     bool dimension;
     long space_dimension;
+    const char *sizes, *kinds; // values of these fields, or NULL
 };
 
 // The value of a line whose field has that name, in one of its two spellings; NULL for other lines.
@@ -69,11 +73,38 @@ static bool check_order(const char *line, const struct progress *progress) {
 static void note(const char *line, const char *end, struct progress *progress) {
     const char *space = field_value(line, "space", "space");
     const char *space_dimension = field_value(line, "space dimension", "spacedimension");
+    const char *sizes = field_value(line, "sizes", "sizes");
+    const char *kinds = field_value(line, "kinds", "kinds");
     progress->dimension = progress->dimension || field_value(line, "dimension", "dimension");
+    progress->sizes = sizes ? sizes : progress->sizes;
+    progress->kinds = kinds ? kinds : progress->kinds;
     if (space_dimension)
         progress->space_dimension = strtol(space_dimension, NULL, 10);
     else if (space)
         progress->space_dimension = strchr("tTeE", end[-1]) ? 4 : 3;
+}
+
+// An RGB-color axis has 3 elements, and so on; sizes and kinds come in either order.
+static bool check_kinds(const struct progress *progress) {
+    const char *size = progress->sizes, *kind = progress->kinds;
+    for (int axis = 0; size && kind && axis < NRRD_DIM_MAX; axis++) {
+        char word[32] = "", *after;
+        size += strspn(size, " \t");
+        kind += strspn(kind, " \t");
+        size_t length = strcspn(kind, " \t\r\n");
+        unsigned long long elements = strtoull(size, &after, 10);
+        if (length == 0 || after == size || *size == '\r' || *size == '\n')
+            break;
+        if (length < sizeof word)
+            memcpy(word, kind, length);
+        unsigned expected = nrrdKindSize(airEnumVal(nrrdKind, word));
+        if (expected && expected != elements)
+            return pel_fail(PEL_ERROR_FORMAT, "axis %d has %llu elements, its kind %s needs %u",
+                            axis, elements, word, expected);
+        size = after;
+        kind += length;
+    }
+    return true;
 }
 
 // teem takes a file whose first line is not one of these for another format, and tries them all.
@@ -102,10 +133,11 @@ bool pel_nrrd_check_header(const char *text, size_t bytes) {
         // What follows a list are its names.
         const char *data_file = field_value(line, "data file", "datafile");
         if (data_file && strncmp(data_file + strspn(data_file, " \t"), "LIST", 4) == 0)
-            return true;
+            break;
         line = next;
     }
     // teem reads on behind a zero byte.
-    return *line || (size_t)(line - text) >= bytes ||
-           pel_fail(PEL_ERROR_FORMAT, "a zero byte in its header");
+    if (!*line && (size_t)(line - text) < bytes)
+        return pel_fail(PEL_ERROR_FORMAT, "a zero byte in its header");
+    return check_kinds(&progress);
 }

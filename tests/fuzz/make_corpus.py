@@ -51,16 +51,35 @@ def nrrd():
         squeeze(BYTES))
     put("nrrd", "gzip_skip", header("uint8", "gzip", more="byte skip: 4\n") +
         squeeze(b"skip" + BYTES))
-    put("nrrd", "gzip_from_end", header("uint8", "raw", more="byte skip: -1\n") + b"junk" + BYTES)
+    put("nrrd", "gzip_end", header("uint8", "gzip", more="byte skip: -3\n") +
+        squeeze(b"junk" + BYTES + b"xy"))
+    put("nrrd", "gzip_lines", header("uint8", "gzip", more="line skip: 2\n") + b"one\ntwo\n" +
+        squeeze(BYTES))
+    put("nrrd", "bzip2_end", header("uint8", "bzip2", more="byte skip: -1\n") +
+        bz2.compress(b"junk" + BYTES))
+    put("nrrd", "raw_end", header("uint8", "raw", more="byte skip: -1\n") + b"junk" + BYTES)
     put("nrrd", "bzip2", header("uint8", "bzip2") + bz2.compress(BYTES))
     put("nrrd", "rgb", header("uint8", "raw", "3 2 2 2", "kinds: RGB-color space space space\n"
                               "space: RAS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n") +
         BYTES)
     put("nrrd", "list", header("uint8", "raw", "2 3 2 2", "kinds: domain domain domain list\n"
+                               "space dimension: 3\n"
                                "old min: 0\nold max: 9\nmeasurement frame: (1,0,0)\nkey:=value\n")
         + BYTES)
     put("nrrd", "image", header("uint8", "raw", "4 6", "content: flat\ncenters: cell node\n"
                                 "axis mins: 0 0\naxis maxs: 1 1\nlabels: \"x\" \"y\"\n") + BYTES)
+    # teem loses memory over these; they must not reach it.
+    put("nrrd", "regress_kinds_first", "NRRD0004\nkinds: domain\ndimension: 1\nsizes: 1\n")
+    put("nrrd", "regress_quote", header("uint8", "raw", more='labels: "a" "b" "c\n') + BYTES)
+    put("nrrd", "regress_space_units", header("uint8", "raw", more=space +
+                                              'space units: "a" "b" "c" "d"\n') + BYTES)
+    put("nrrd", "regress_kind_size", header("uint8", "raw", "6 2 2 2",
+                                            "kinds: RGB-color space space space\n") + BYTES * 2)
+    put("nrrd", "regress_magic", "NRRD000O = Image\nMM nan 8\n")
+    put("nrrd", "regress_return", "NRRD0004\ntype: uint8\rdata file: LIST\n")
+    put("nrrd", "regress_zero", b"NRRD0004\n# \0\ndata file: %s%s%d 1 2 1\n")
+    put("nrrd", "regress_gzip", header("uint8", "gzip") + squeeze(BYTES)[:-12] + bytes(12))
+    put("nrrd", "regress_bzip2", header("uint8", "bzip2") + bz2.compress(BYTES)[:-4] + bytes(4))
     put("nrrd", "detached", header("uint8", "raw", more="data file: nowhere.raw\n"))
     put("nrrd", "detached_list", header("uint8", "raw", more="data file: part%02d.raw 1 4 1\n"))
 
@@ -69,7 +88,7 @@ def nifti_header(version, dims, code, bits, order="<", **more):
     dim = ([len(dims)] + list(dims) + [1] * 7)[:8]
     pixdim = ([-1.0, 1.5, 2.0, 2.5] + [1.0] * 4)
     qform, sform = more.get("qform", 1), more.get("sform", 0)
-    rows = (1.5, 0, 0, -10, 0, 2, 0.1, -20, 0, -0.1, 2.5, 5)
+    rows = (1.5, 0, 0, more.get("origin", -10), 0, 2, 0.1, -20, 0, -0.1, 2.5, 5)
     slope, inter = more.get("slope", 2.0), more.get("inter", -3.0)
     if version == 1:
         offset = more.get("offset", 352.0)
@@ -99,6 +118,8 @@ def nifti():
     put("nifti", "version2", nifti_header(2, (2, 3, 4), 2, 8, sform=1) + none + BYTES)
     put("nifti", "gzip", squeeze(nifti_header(1, (2, 3, 4), 2, 8) + none + BYTES))
     put("nifti", "pair", nifti_header(1, (2, 3, 4), 2, 8, magic=b"ni1\0", offset=0.0) + BYTES)
+    put("nifti", "regress_infinite", nifti_header(1, (2, 3, 4), 2, 8, sform=1, origin=float("inf")) + none +
+        BYTES)
     put("nifti", "extension", nifti_header(1, (2, 3, 4), 2, 8, offset=384.0) + b"\1\0\0\0" +
         struct.pack("<ii24s", 32, 6, b"a comment") + BYTES)
 
