@@ -70,6 +70,7 @@ struct pel_tiff_shape {
     int components;   // 1, or 3 and 4 of bytes: RGB, and RGB with alpha
     int first_sample; // the stored sample of component 0
     bool rendered;    // through libtiff's RGBA interface, which knows odd colour spaces
+    bool cmyk;        // four inks become RGB
     bool indices;     // palette indices are the values
 };
 
@@ -95,9 +96,10 @@ struct pel_tiff_stack {
 };
 
 // Reads metadata, and picks options->time and options->channel. `channel_count` samples of a page
-// can be chosen from (pel_tiff_shape_of).
+// can be chosen from (pel_tiff_shape_of). A file that is `alone` is the whole stack; otherwise it
+// is one slice of it, whatever its metadata say.
 bool pel_tiff_stack_init(struct pel_tiff_stack *stack, const struct pel_tiff_file *file,
-                         const char *name, int channel_count,
+                         const char *name, int channel_count, bool alone,
                          const struct pel_load_options *options);
 void pel_tiff_stack_finish(struct pel_tiff_stack *stack);
 

@@ -50,12 +50,16 @@ TIFF *pel_tiff_handle(const char *path, const char *mode, size_t limit, char *me
 }
 
 bool pel_tiff_fail(const struct pel_tiff_file *file, const char *otherwise) {
+    // When whole strips are read libtiff does not know the row, and says so with 2^32 - 1.
+    const char *nowhere = strstr(file->message, "4294967295"), *rest = strchr(file->message, ';');
+    if (nowhere && rest)
+        return pel_fail(PEL_ERROR_FORMAT, "read error:%s", rest + 1);
     return pel_fail(PEL_ERROR_FORMAT, "%s", file->message[0] ? file->message : otherwise);
 }
 
 // The figures are the most each code can do: deflate 258 bytes from 2 bits, LZW a string of 4096
-// from 12 bits, PackBits 128 from 2, a fax row of any length from 1 bit. Where no figure is known
-// the fax one is taken.
+// from 12 bits, PackBits 128 from 2 bytes, JPEG a block of 64 from 2 bits (progressive ones a
+// little less), a fax row of any length from 1 bit. Where no figure is known the fax one is taken.
 uint64_t pel_tiff_expansion(uint16_t compression) {
     switch (compression) {
     case COMPRESSION_NONE:
@@ -66,6 +70,9 @@ uint64_t pel_tiff_expansion(uint16_t compression) {
     case COMPRESSION_ADOBE_DEFLATE:
     case COMPRESSION_PIXARLOG:
         return 1032;
+    case COMPRESSION_JPEG:
+    case COMPRESSION_OJPEG:
+        return 1024;
     case COMPRESSION_LZW:
         return 2731;
     default:
