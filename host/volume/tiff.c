@@ -29,18 +29,36 @@ struct stack {
     struct pel_tiff_stack meta;  // of the first file
     int dims[3];
     size_t plane_bytes;
+    bool warned; // of libtiff's first warning
     struct pel_volume *volume;
     void *wide;
 };
 
 // ---- What is lost ------------------------------------------------------------------------------
 
+// The name of a colour space whose translation to RGB loses something; NULL for the others.
+static const char *lossy_colours(uint16_t photometric) {
+    switch (photometric) {
+    case PHOTOMETRIC_SEPARATED:
+        return "CMYK";
+    case PHOTOMETRIC_CIELAB:
+    case PHOTOMETRIC_ICCLAB:
+    case PHOTOMETRIC_ITULAB:
+        return "L*a*b*";
+    case PHOTOMETRIC_LOGL:
+    case PHOTOMETRIC_LOGLUV:
+        return "logarithmic";
+    default:
+        return NULL;
+    }
+}
+
 static void warn_about(const struct stack *stack) {
     const struct pel_tiff_page *page = &stack->page;
     const struct pel_tiff_shape *shape = &stack->shape;
-    if (shape->rendered || shape->cmyk)
-        pel_warn("%s: the colours of photometric interpretation %d became RGB", stack->name,
-                 page->photometric);
+    const char *lossy = lossy_colours(page->photometric);
+    if (lossy && (shape->rendered || shape->cmyk))
+        pel_warn("%s: %s colours became 8-bit RGB", stack->name, lossy);
     else if (shape->components > 1 && page->bits != 8 && page->palette == PEL_PALETTE_NONE)
         pel_warn("%s: colours of %d bits became 8-bit ones; taking single channels keeps them",
                  stack->name, page->bits);
@@ -139,8 +157,12 @@ static bool read_plane(struct stack *stack, struct pel_tiff_file *file, int page
                         "page %d: %d samples of %d bits, not of the first page's type (%d of %d)",
                         page_index, page->samples, page->bits, stack->page.samples,
                         stack->page.bits);
-    return pel_tiff_read_page(file, page, &shape, plane_at(stack, z)) ||
-           pel_fail_in("page %d", page_index);
+    if (!pel_tiff_read_page(file, page, &shape, plane_at(stack, z)))
+        return pel_fail_in("page %d", page_index);
+    if (file->reports.warning[0] && !stack->warned)
+        pel_warn("%s: plane %d: libtiff warns: %s", stack->name, z, file->reports.warning);
+    stack->warned = stack->warned || file->reports.warning[0];
+    return true;
 }
 
 static bool read_pages(struct stack *stack, struct pel_tiff_file *file) {

@@ -191,8 +191,29 @@ struct block {
     int plane; // of separate planes; -1 when the samples of a pixel lie together
 };
 
+// True when rows are stored just as the output wants them.
+static bool is_plain(const struct sink *sink, const struct block *block) {
+    const struct pel_tiff_page *page = sink->page;
+    int samples = block->plane >= 0 ? 1 : page->samples;
+    return sink->step_x == 1 && !sink->palette && samples == sink->shape->components &&
+           page->photometric != PHOTOMETRIC_MINISWHITE &&
+           page->bits == 8 * pel_element_bytes(sink->shape->element) &&
+           (samples == 1 || page->format == SAMPLEFORMAT_UINT);
+}
+
 static void store_block(const struct sink *sink, const struct block *block, const uint8_t *data) {
     const struct pel_tiff_page *page = sink->page;
+    if (is_plain(sink, block)) {
+        size_t voxel_bytes =
+            (size_t)sink->shape->components * pel_element_bytes(sink->shape->element);
+        for (uint32_t y = 0; y < block->height; y++) {
+            ptrdiff_t pixel =
+                sink->origin + (ptrdiff_t)block->x + (ptrdiff_t)(block->y + y) * sink->step_y;
+            memcpy(sink->out + pixel * (ptrdiff_t)voxel_bytes, data + y * block->row_bytes,
+                   block->width * voxel_bytes);
+        }
+        return;
+    }
     size_t stride = block->plane >= 0 ? 1 : page->samples;
     int components = sink->palette ? 1 : sink->shape->components;
     for (uint32_t y = 0; y < block->height; y++) {
@@ -424,12 +445,12 @@ static bool read_cmyk(struct pel_tiff_file *file, const struct sink *sink) {
 
 bool pel_tiff_read_page(struct pel_tiff_file *file, const struct pel_tiff_page *page,
                         const struct pel_tiff_shape *shape, void *out) {
-    file->message[0] = 0;
+    file->reports = (struct pel_tiff_reports){0};
     if (TIFFCurrentDirOffset(file->handle) != page->offset &&
         !TIFFSetSubDirectory(file->handle, page->offset))
         return pel_tiff_fail(file, "its directory cannot be read");
     // Complaints about tags that did not keep the directory from being read are of no interest.
-    file->message[0] = 0;
+    file->reports = (struct pel_tiff_reports){0};
     struct sink sink = {.page = page, .shape = shape, .out = out};
     orient(&sink);
     if (shape->rendered)
