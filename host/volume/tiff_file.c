@@ -8,6 +8,7 @@
 // the chain, so they are never seen.
 #include "volume/tiff.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,9 +16,14 @@
 #include "base/file.h"
 #include "base/memory.h"
 
+// A sentence is one line, but what libtiff quotes from the file may have several.
 static void keep_first(char text[256], const char *format, va_list arguments) {
-    if (!text[0])
-        vsnprintf(text, 256, format, arguments);
+    if (text[0])
+        return;
+    vsnprintf(text, 256, format, arguments);
+    for (char *c = text; *c; c++)
+        if (iscntrl((unsigned char)*c))
+            *c = ' ';
 }
 
 static int on_error(TIFF *handle, void *user, const char *module, const char *format,

@@ -68,6 +68,9 @@ static bool find_value(const char *description, const char *key, char value[64])
         if (strncmp(line, key, length) == 0 && line[length] == '=') {
             size_t end = strcspn(line + length + 1, "\r\n");
             snprintf(value, 64, "%.*s", (int)(end < 63 ? end : 63), line + length + 1);
+            for (char *c = value; *c; c++)
+                if (iscntrl((unsigned char)*c))
+                    *c = ' ';
             return true;
         }
     }
@@ -98,8 +101,9 @@ bool pel_tiff_is_composite(const struct pel_tiff_file *file) {
 
 // ---- Spacing -----------------------------------------------------------------------------------
 
-static bool is_sensible(double spacing) {
-    return isfinite(spacing) && spacing > 0;
+// From far below an atom to far beyond a planet; products of such numbers stay finite.
+static bool is_sensible(double spacing_mm) {
+    return spacing_mm > 1e-12 && spacing_mm < 1e12;
 }
 
 // Pixels per unit from the tags; false when they are missing or senseless. `*unit` is 0 for a
@@ -154,6 +158,20 @@ static void imagej_spacing(struct pel_tiff_stack *stack, const struct pel_tiff_f
         stack->space = "ImageJ calibration";
     else if (named && strncmp(unit, "pixel", 5) != 0)
         pel_warn("%s: lengths are in '%s', which is no unit known here; taken as mm", name, unit);
+}
+
+// The linear calibration of values, if there is one.
+static void imagej_values(struct pel_tiff_stack *stack, const char *description) {
+    double intercept = find_number(description, "c0", 0);
+    double slope = find_number(description, "c1", 1);
+    if (find_number(description, "cf", -1) != 0 || fabs(intercept) > 1e30 || fabs(slope) > 1e30 ||
+        fabs(slope) < 1e-30)
+        return;
+    stack->intercept = intercept;
+    stack->slope = slope;
+    char unit[64] = "";
+    find_value(description, "vunit", unit);
+    snprintf(stack->unit, sizeof stack->unit, "%.15s", unit);
 }
 
 static void ome_spacing(struct pel_tiff_stack *stack, const struct pel_ome *ome) {
@@ -266,13 +284,7 @@ bool pel_tiff_stack_init(struct pel_tiff_stack *stack, const struct pel_tiff_fil
         pel_ome_finish(&ome);
     } else if (pel_tiff_is_imagej(file)) {
         imagej_spacing(stack, file, name);
-        if (find_number(file->description, "cf", -1) == 0) {
-            stack->intercept = find_number(file->description, "c0", 0);
-            stack->slope = find_number(file->description, "c1", 1);
-            char unit[64] = "";
-            find_value(file->description, "vunit", unit);
-            snprintf(stack->unit, sizeof stack->unit, "%.15s", unit);
-        }
+        imagej_values(stack, file->description);
         done = imagej_order(stack, file, name, channel_count, options);
     } else {
         if (pel_tiff_is_ome(file))
