@@ -369,8 +369,11 @@ static struct pel_volume *read_volume(Nrrd *header, struct pel_nrrd_data *data, 
         pel_volume_destroy(volume);
         return NULL;
     }
-    if (volume && header->sampleUnits)
-        snprintf(volume->unit, sizeof volume->unit, "%s", header->sampleUnits);
+    if (volume && header->sampleUnits) {
+        // The unit stands as it is; some writers quote it as axis units are.
+        const char *unit = header->sampleUnits + (header->sampleUnits[0] == '"');
+        snprintf(volume->unit, sizeof volume->unit, "%.*s", (int)strcspn(unit, "\""), unit);
+    }
     return volume;
 }
 

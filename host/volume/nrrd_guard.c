@@ -106,7 +106,7 @@ static bool check_lines(struct pel_nrrd_data *data, const char *text, const char
     // The voxels follow the blank line, if there is one.
     line += *line == '\r';
     data->offset = (size_t)(line - text) + (*line == '\n');
-    data->bytes = file_bytes;
+    data->bytes = file_bytes - data->offset;
     data->path = pel_copy_text(path);
     return data->path != NULL;
 }

@@ -11,8 +11,8 @@
 
 // Where the voxels are.
 struct pel_nrrd_data {
-    size_t bytes; // of all data files together, or of the file itself when voxels follow the header
-    char *path;   // owned; the file with the voxels, NULL when there are several
+    size_t bytes;  // of all data files together, or of what follows the header
+    char *path;    // owned; the file with the voxels, NULL when there are several
     size_t offset; // of the first byte behind the header in that file, or 0
 };
 

@@ -39,8 +39,8 @@ static bool write_header(FILE *stream, const struct pel_volume *volume, const ch
     fprintf(stream, "\nkinds:%s%s domain domain domain\n", kind ? " " : "", kind ? kind : "");
     fprintf(stream, "endian: %s\nencoding: raw\nspace origin: (%.17g,%.17g,%.17g)\n",
             pel_little_endian() ? "little" : "big", m[0][3], m[1][3], m[2][3]);
-    if (volume->unit[0] && !strpbrk(volume->unit, "\"\\\n"))
-        fprintf(stream, "sample units: \"%s\"\n", volume->unit);
+    if (volume->unit[0] && !strpbrk(volume->unit, "\"\n"))
+        fprintf(stream, "sample units: %s\n", volume->unit);
     if (data_file)
         fprintf(stream, "data file: %s\n", data_file);
     else

@@ -53,15 +53,25 @@ size_t pel_source_read_some(struct pel_source *source, void *bytes, size_t count
     return done;
 }
 
+// Sets the sentence when decompression failed for another reason than the end of the file.
+static bool fail_if_damaged(struct pel_source *source) {
+    int code = Z_OK;
+    const char *message = gzerror(source->stream, &code);
+    if (code != Z_DATA_ERROR)
+        return false;
+    // zlib puts its own copy of the path and ": " before the reason.
+    const char *colon = strrchr(message, ':');
+    pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged (%s)",
+             colon && colon[1] ? colon + 2 : message);
+    return true;
+}
+
 bool pel_source_read(struct pel_source *source, void *bytes, size_t count) {
     size_t before = source->position;
     if (pel_source_read_some(source, bytes, count) == count)
         return true;
-    int code = Z_OK;
-    gzerror(source->stream, &code);
-    if (code == Z_DATA_ERROR)
-        return pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged after %zu bytes",
-                        source->position);
+    if (fail_if_damaged(source))
+        return false;
     return pel_fail(PEL_ERROR_FORMAT, "ends after %zu bytes where %zu are needed", source->position,
                     before + count);
 }
@@ -80,9 +90,7 @@ bool pel_source_finish(struct pel_source *source, bool *more) {
     char byte;
     int got = gzread(source->stream, &byte, 1);
     *more = got == 1;
-    if (got < 0)
-        return pel_fail(PEL_ERROR_FORMAT, "compressed data has a wrong checksum");
-    return true;
+    return got >= 0 || !fail_if_damaged(source);
 }
 
 char *pel_source_head(const char *path, size_t limit, size_t *bytes) {
