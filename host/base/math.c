@@ -62,8 +62,11 @@ bool pel_matrix_invert(struct pel_matrix *inverse, const struct pel_matrix *matr
     }
     double translation[3] = {matrix->m[0][3], matrix->m[1][3], matrix->m[2][3]};
     pel_matrix_direction(translation, &result, translation);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; i++) {
         result.m[i][3] = -translation[i];
+        if (!isfinite(pel_dot(result.m[i], result.m[i]) + translation[i]))
+            return pel_fail(PEL_ERROR_ARGUMENT, "matrix is not finite");
+    }
     *inverse = result;
     return true;
 }

@@ -5,6 +5,7 @@
 #include "volume/volume.h"
 
 #include <dirent.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -12,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/math.h"
 #include "volume/source.h"
 
 typedef struct pel_volume *load_function(const char *path, const struct pel_load_options *options);
@@ -196,12 +198,27 @@ static load_function *choose_reader(const char *path, const struct pel_load_opti
     return NULL;
 }
 
+// Whatever a header says, its volume has a place in the world and its values are numbers.
+static bool check_volume(const struct pel_volume *volume) {
+    struct pel_matrix inverse;
+    if (!pel_matrix_invert(&inverse, &volume->world_from_voxel))
+        return pel_fail(PEL_ERROR_FORMAT, "its placement is not finite, or flat");
+    if (!isfinite(volume->slope) || !isfinite(volume->intercept))
+        return pel_fail(PEL_ERROR_FORMAT, "its slope %g or intercept %g is not finite",
+                        volume->slope, volume->intercept);
+    return true;
+}
+
 struct pel_volume *pel_volume_load(const char *path, const struct pel_load_options *options) {
     static const struct pel_load_options defaults;
     if (!options)
         options = &defaults;
     load_function *load = choose_reader(path, options);
     struct pel_volume *volume = load ? load(path, options) : NULL;
+    if (volume && !check_volume(volume)) {
+        pel_volume_destroy(volume);
+        volume = NULL;
+    }
     // What base/file.h says about a file begins with its path already.
     if (!volume && strncmp(pel_error_message(), path, strlen(path)) != 0)
         pel_fail_in("%s", path);

@@ -20,6 +20,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "volume/nrrd_guard.h"
+#include "volume/nrrd_unpack.h"
 #include "volume/source.h"
 
 enum { BZIP2_RATIO = 65536, BZIP2_BLOCK_BYTES = 46000000 };
@@ -30,8 +31,7 @@ static pthread_mutex_t teem_lock = PTHREAD_MUTEX_INITIALIZER;
 // How the voxels are stored.
 struct coding {
     const NrrdEncoding *encoding;
-    unsigned line_skip;
-    long byte_skip;
+    struct pel_nrrd_skip skip;
     bool swap; // the other byte order than this machine's
 };
 
@@ -67,8 +67,7 @@ static bool read_header(Nrrd *nrrd, const char *path, struct coding *coding) {
     bool good = nrrdLoad(nrrd, path, state) == 0 || fail_from_teem();
     *coding = (struct coding){
         .encoding = state->encoding,
-        .line_skip = state->lineSkip,
-        .byte_skip = state->byteSkip,
+        .skip = {.lines = state->lineSkip, .bytes = state->byteSkip},
         .swap = state->endian != airEndianUnknown && state->endian != airMyEndian(),
     };
     if (good && !state->encoding->available())
@@ -76,43 +75,6 @@ static bool read_header(Nrrd *nrrd, const char *path, struct coding *coding) {
                         state->encoding->name);
     nrrdIoStateNix(state);
     return good;
-}
-
-// True for what unpack_data reads: one compressed file. The rest - skipping to the end of
-// compressed data, and several compressed files - is left to teem.
-static bool is_packed(const struct pel_nrrd_data *data, const struct coding *coding) {
-    return (coding->encoding == nrrdEncodingGzip || coding->encoding == nrrdEncodingBzip2) &&
-           data->path && coding->byte_skip >= 0;
-}
-
-// Decompresses the one data file. teem can too, but loses 60 KB of memory over each damaged gzip
-// and 3.6 MB over each damaged bzip2 stream. Returns `bytes` of voxels to free(), in the file's
-// byte order. No more is allocated than `limit`.
-static void *unpack_data(const struct pel_nrrd_data *data, const struct coding *coding,
-                         size_t bytes, size_t limit) {
-    size_t skip = (size_t)coding->byte_skip, file_bytes, start = data->offset;
-    if (skip > limit - bytes) {
-        pel_fail(PEL_ERROR_FORMAT, "the voxels start at byte %zu of at most %zu", skip, limit);
-        return NULL;
-    }
-    char *file = pel_file_read(data->path, PTRDIFF_MAX, &file_bytes);
-    char *block = file ? pel_allocate_voxels(skip + bytes) : NULL;
-    bool good = block != NULL;
-    for (unsigned i = 0; good && i < coding->line_skip; i++) {
-        const char *end = memchr(file + start, '\n', file_bytes - start);
-        good = end ||
-               pel_fail(PEL_ERROR_FORMAT, "ends before the %u lines to skip", coding->line_skip);
-        start = end ? (size_t)(end - file) + 1 : start;
-    }
-    good = good && (coding->encoding == nrrdEncodingGzip ? pel_inflate : pel_bunzip2)(
-                       block, skip + bytes, file + start, file_bytes - start);
-    free(file);
-    if (!good) {
-        free(block);
-        return NULL;
-    }
-    memmove(block, block + skip, bytes);
-    return block;
 }
 
 // Lets teem read header and voxels. Returns the voxels to free(), in this machine's byte order.
@@ -377,8 +339,10 @@ static struct pel_volume *read_volume(Nrrd *header, struct pel_nrrd_data *data, 
         !pel_select_channel(&selection, name, axis_size(header, axes.channel),
                             axes.channel < 0 ? 0 : strides[axes.channel], options))
         return NULL;
-    bool packed = is_packed(data, &coding);
-    void *block = packed ? unpack_data(data, &coding, bytes, limit) : read_data(path, bytes);
+    bool bzip2 = coding.encoding == nrrdEncodingBzip2;
+    bool packed = bzip2 || coding.encoding == nrrdEncodingGzip;
+    void *block =
+        packed ? pel_nrrd_unpack(data, bzip2, &coding.skip, bytes) : read_data(path, bytes);
     selection.swap = packed && coding.swap;
     struct pel_volume *volume = block ? pel_volume_select(name, &selection, block) : NULL;
     free(block);

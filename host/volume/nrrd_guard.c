@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "volume/file_list.h"
+#include "volume/nrrd_header.h"
 #include "volume/source.h"
 
 // teem's messages have room for about a thousand characters, the longest sane field line needs 300.
@@ -119,7 +120,8 @@ bool pel_nrrd_guard(struct pel_nrrd_data *data, const char *path) {
     if (!pel_file_size(path, &file_bytes))
         return false;
     char *text = pel_source_head(path, HEADER_BYTES_MAX, &bytes);
-    bool good = text && check_lines(data, text, path, file_bytes);
+    bool good =
+        text && pel_nrrd_check_header(text, bytes) && check_lines(data, text, path, file_bytes);
     free(text);
     return good;
 }

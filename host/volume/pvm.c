@@ -9,9 +9,10 @@
 //
 // DDS ("DDS v3d\n" or "DDS v3e\n") codes the difference of each byte to the one before it, or, past
 // the first `strip` bytes, to what the gradient one strip earlier foretells. A stream of bits, most
-// significant first: 2 bits skip - 1, 16 bits strip - 1; then groups of a 7-bit count, a 3-bit
-// width code and `count` differences of that width; a count of 0 ends it. Bytes of multi-byte
-// voxels are stored one plane after the other (`skip` planes), in v3e within blocks of 2^24 voxels.
+// significant first: 2 bits skip - 1, 16 bits strip - 1 (a strip of 1 foretells nothing); then
+// groups of a 7-bit count, a 3-bit width code and `count` differences of that width; a count of 0
+// ends it. Bytes of multi-byte voxels are stored one plane after the other (`skip` planes), in v3e
+// within blocks of 2^24 voxels.
 #include "volume/volume.h"
 
 #include <errno.h>
@@ -71,7 +72,7 @@ static size_t decode_groups(struct bits *bits, size_t strip, unsigned char *out,
         for (unsigned i = 0; i < length; i++) {
             if (count == capacity || !read_bits(bits, width, &difference))
                 goto truncated;
-            if (count > strip)
+            if (strip > 1 && count > strip)
                 value += out[count - strip] - (unsigned)out[count - strip - 1];
             value = (value + difference - (1u << width) / 2) & 255;
             out[count++] = (unsigned char)value;

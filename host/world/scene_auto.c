@@ -44,14 +44,28 @@ struct window {
     double low, start, high;
 };
 
+// The greatest value that more than one in two thousand reach, to the width of a bin.
+static double robust_maximum(const struct pel_statistics *statistics) {
+    double width = (statistics->max - statistics->min) / PEL_HISTOGRAM_BINS;
+    uint64_t above = 0;
+    for (int i = PEL_HISTOGRAM_BINS; i-- > 0;) {
+        above += statistics->histogram[i];
+        if (above > statistics->count / 2000)
+            return statistics->min + (i + 1) * width;
+    }
+    return statistics->max;
+}
+
 static struct window find_window(const struct pel_statistics *statistics) {
     struct window window = {.low = statistics->percentiles[2], .high = statistics->percentiles[98]};
-    // In a nearly empty volume the window has to come from the few values that are there.
-    double range = statistics->max - statistics->min;
-    if (window.high - window.low < 0.05 * range)
-        window = (struct window){.low = statistics->min, .high = statistics->max};
+    // In a nearly empty volume both percentiles are background. The window then reaches to the few
+    // values beyond, if they are more than outliers: those share the histogram's far bins.
+    double width = (statistics->max - statistics->min) / PEL_HISTOGRAM_BINS;
+    double top = robust_maximum(statistics);
+    if (top - width > window.high && window.high - window.low < 0.05 * (top - window.low))
+        window.high = top;
     if (!(window.high > window.low))
-        window.high = window.low + 1;
+        window.high = statistics->max > window.low ? statistics->max : window.low + 1;
     double threshold = otsu_threshold(statistics, window.low, window.high);
     window.start = (window.low + threshold) / 2;
     return window;

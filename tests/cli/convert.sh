@@ -5,7 +5,7 @@ need_python
 
 # Counts 0..23 in 4 x 3 x 2 voxels, so that every voxel is known.
 python3 -c 'import sys; sys.stdout.buffer.write(bytes(range(24)))' >count.bin
-raw=(--raw dims=4x3x2,type=uint8,spacing=2x3x4,origin=10x20x30)
+raw=(--raw "dims=4x3x2,type=uint8,spacing=2x3x4,origin=10x20x30")
 
 expect 0 '' info count.bin "${raw[@]}" --json
 check_json 'len(x) == 1 and x[0]["file"] == "count.bin"'

@@ -59,6 +59,15 @@ for option in '--mix over' '--filter nearest' '--termination 1' '--phase 0.25' '
     expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" $option -o option.png
 done
 
+# Images are read with the device's own filter: the same picture within its 8-bit weights, where there are images.
+if "$PELLUCID" devices | sed -n '/^\*/,/^[ *] [0-9]/p' | grep -q '3-D images *up to'; then
+    expect 0 '' render data/box.nii.gz "${small[@]}" --reader image -o image.ppm
+    expect 0 '' render data/box.nii.gz "${small[@]}" --reader buffer -o buffer.ppm
+    python3 -c '
+a, b = (open(n + ".ppm", "rb").read()[13:] for n in ("image", "buffer"))
+assert max(abs(x - y) for x, y in zip(a, b)) <= 4' 2>trouble || complain "readers differ: $(tail -1 trouble)"
+fi
+
 # What the scene refuses is refused, with the key and the option's value.
 expect 2 '^pellucid: .*mixing.*blend' render data/box.nii.gz --mix blend
 expect 2 '^pellucid: .*filter' render data/box.nii.gz --filter cubist

@@ -5,7 +5,7 @@ cd "$SOURCE"
 if git rev-parse --git-dir >/dev/null 2>&1; then
     list=(git ls-files -z --cached --others --exclude-standard)
 else
-    list=(find . -path ./build -prune -o -type f -print0)
+    list=(find . \( -name .git -o -path './build*' -o -path ./out \) -prune -o -type f -print0)
 fi
 # This file holds the pattern itself.
 if "${list[@]}" | xargs -0 grep -nIE '(^|[^A-Za-z0-9_.])/(home|root|work|Users|mnt)/[A-Za-z0-9_]' -- |

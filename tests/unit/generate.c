@@ -4,14 +4,8 @@
 #include <math.h>
 
 #include "base/math.h"
+#include "support/near.h"
 #include "volume/generate.h"
-
-#define assert_near(value, truth, tolerance) near(value, truth, tolerance, __LINE__)
-
-static void near(double value, double truth, double tolerance, int line) {
-    if (!(fabs(value - truth) <= tolerance))
-        fail_msg("line %d: %.17g is not within %g of %.17g", line, value, tolerance, truth);
-}
 
 static struct pel_volume *generate(const char *kind, int size, enum pel_voxel_type type) {
     struct pel_volume *volume =
