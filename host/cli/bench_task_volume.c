@@ -11,7 +11,7 @@
 #include "cli/options.h"
 
 // Lengths in halves of the cube's side.
-static const double shell_radius = 0.73, shell_width = 0.055, shell_roughness = 0.055;
+static const double shell_radius = 0.8, shell_width = 0.075, shell_roughness = 0.055;
 static const double noise_cell = 0.09;
 
 enum { BLOB_COUNT = 12, LEAST_VALUE = 12 };
@@ -62,7 +62,7 @@ static void place_blobs(struct blob blobs[BLOB_COUNT]) {
         uint64_t seed = (uint64_t)(i + 1) << 40;
         for (int axis = 0; axis < 3; axis++)
             blobs[i].centre[axis] = 0.9 * (hash_unit(seed + (uint64_t)axis) - 0.5);
-        blobs[i].deviation = 0.08 + 0.12 * hash_unit(seed + 3);
+        blobs[i].deviation = 0.09 + 0.14 * hash_unit(seed + 3);
         blobs[i].height = 70 + 120 * hash_unit(seed + 4);
     }
 }
