@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/nearest.h"
 #include "cli/options.h"
 
 static const struct command commands[] = {
@@ -14,6 +15,7 @@ static const struct command commands[] = {
     {"devices", "list the OpenCL devices and what Pellucid would choose", command_devices},
     {"convert", "crop, resample and rewrite a volume", command_convert},
     {"generate", "write a synthetic volume", command_generate},
+    {"bench", "measure how fast this device renders", command_bench},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
@@ -25,43 +27,11 @@ static const struct command *find_command(const char *name) {
     return NULL;
 }
 
-enum { NAME_BYTES = 32 };
-
-// How many letters must be inserted, deleted or replaced to make `b` of `a` (Levenshtein 1966);
-// both are shorter than NAME_BYTES. row[j] is the distance from what was read of `a` to the first j
-// letters of `b`.
-static int edit_distance(const char *a, const char *b) {
-    int row[NAME_BYTES];
-    int length = (int)strlen(b);
-    for (int j = 0; j <= length; j++)
-        row[j] = j;
-    for (int i = 0; a[i]; i++) {
-        int diagonal = row[0];
-        row[0] = i + 1;
-        for (int j = 1; j <= length; j++) {
-            int least = diagonal + (a[i] != b[j - 1]);
-            if (row[j] + 1 < least)
-                least = row[j] + 1;
-            if (row[j - 1] + 1 < least)
-                least = row[j - 1] + 1;
-            diagonal = row[j];
-            row[j] = least;
-        }
-    }
-    return row[length];
-}
-
 static int fail_unknown(const char *name) {
-    enum { WORTH_NAMING = 3 };
-    const char *nearest = NULL;
-    int least = WORTH_NAMING;
-    for (int i = 0; i < COMMAND_COUNT && strlen(name) < NAME_BYTES; i++) {
-        int distance = edit_distance(name, commands[i].name);
-        if (distance < least) {
-            least = distance;
-            nearest = commands[i].name;
-        }
-    }
+    const char *names[COMMAND_COUNT];
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        names[i] = commands[i].name;
+    const char *nearest = cli_nearest(name, names, COMMAND_COUNT);
     if (nearest)
         return cli_fail(PEL_ERROR_ARGUMENT, "no command '%s'; did you mean '%s'?", name, nearest);
     return cli_fail(PEL_ERROR_ARGUMENT, "no command '%s'; 'pellucid --help' lists them", name);

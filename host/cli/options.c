@@ -77,6 +77,27 @@ bool cli_sizes(const char *option, const char *text, int count, int *values) {
     return false;
 }
 
+bool cli_reader(const char *text, enum pel_reader *reader) {
+    static const char *const names[] = {"auto", "buffer", "image"};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            *reader = (enum pel_reader)i;
+            return true;
+        }
+    }
+    cli_fail(PEL_ERROR_ARGUMENT, "--reader: '%s' is none of auto, buffer, image", text);
+    return false;
+}
+
+bool cli_lanes(const char *text, int *lanes) {
+    if (!cli_integer("--lanes", text, 1, lanes))
+        return false;
+    if (*lanes == 1 || *lanes == 4 || *lanes == 8 || *lanes == 16)
+        return true;
+    cli_fail(PEL_ERROR_ARGUMENT, "--lanes: %d is none of 1, 4, 8, 16", *lanes);
+    return false;
+}
+
 bool cli_is_scene(const char *path) {
     size_t length = strlen(path);
     return length > 5 && strcasecmp(path + length - 5, ".json") == 0;

@@ -18,6 +18,7 @@ int command_info(int argc, char **argv);
 int command_devices(int argc, char **argv);
 int command_convert(int argc, char **argv);
 int command_generate(int argc, char **argv);
+int command_bench(int argc, char **argv);
 
 // Says "pellucid: sentence" on standard error and returns `code`, the exit status.
 int cli_fail(enum pel_error code, const char *format, ...) PEL_PRINTF(2, 3);
@@ -35,6 +36,10 @@ bool cli_integer(const char *option, const char *text, int least, int *value);
 
 // Reads `count` positive integers with an 'x' between them: "640x480".
 bool cli_sizes(const char *option, const char *text, int count, int *values);
+
+// Reads the value of --reader and of --lanes.
+bool cli_reader(const char *text, enum pel_reader *reader);
+bool cli_lanes(const char *text, int *lanes);
 
 // True when a path names a scene file and not a volume: it ends in .json.
 bool cli_is_scene(const char *path);

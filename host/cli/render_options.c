@@ -119,27 +119,6 @@ static bool add_set(struct render_options *options, const char *text) {
     return true;
 }
 
-static bool read_reader(const char *text, enum pel_reader *reader) {
-    static const char *const names[] = {"auto", "buffer", "image"};
-    for (int i = 0; i < 3; i++) {
-        if (strcmp(text, names[i]) == 0) {
-            *reader = (enum pel_reader)i;
-            return true;
-        }
-    }
-    cli_fail(PEL_ERROR_ARGUMENT, "--reader: '%s' is none of auto, buffer, image", text);
-    return false;
-}
-
-static bool read_lanes(const char *text, int *lanes) {
-    if (!cli_integer("--lanes", text, 1, lanes))
-        return false;
-    if (*lanes == 1 || *lanes == 4 || *lanes == 8 || *lanes == 16)
-        return true;
-    cli_fail(PEL_ERROR_ARGUMENT, "--lanes: %d is none of 1, 4, 8, 16", *lanes);
-    return false;
-}
-
 // Keys of the scene; ARGP_ERR_UNKNOWN for the other options.
 static error_t parse_scene_key(int key, const char *argument, struct render_options *options) {
     bool good = true;
@@ -206,10 +185,10 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         options->renderer.device = argument;
         break;
     case KEY_READER:
-        good = read_reader(argument, &options->renderer.reader);
+        good = cli_reader(argument, &options->renderer.reader);
         break;
     case KEY_LANES:
-        good = read_lanes(argument, &options->renderer.lanes);
+        good = cli_lanes(argument, &options->renderer.lanes);
         break;
     case KEY_WORK_GROUP:
         good = cli_integer("--work-group", argument, 1, &options->renderer.work_group);

@@ -1,0 +1,134 @@
+// bench_report.c - the machine, and the cases as JSON lines.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/bench.h"
+#include "cli/report.h"
+
+// The processor's name, as Linux tells it; "" elsewhere.
+static void find_cpu(char *name, size_t bytes) {
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    char *line = NULL;
+    size_t room = 0;
+    name[0] = '\0';
+    while (file && !name[0] && getline(&line, &room, file) >= 0) {
+        const char *colon = strchr(line, ':');
+        if (strncmp(line, "model name", 10) == 0 && colon)
+            snprintf(name, bytes, "%s", colon + 1 + strspn(colon + 1, " \t"));
+    }
+    name[strcspn(name, "\n")] = '\0';
+    free(line);
+    if (file)
+        fclose(file);
+}
+
+// The device the frames were rendered on.
+static const struct pel_device_info *find_device(const struct bench *bench,
+                                                 const struct pel_device_info *devices, int count) {
+    const char *name = "", *driver = "";
+    for (int i = 0; i < bench->case_count && !name[0]; i++) {
+        name = bench->cases[i].statistics.device;
+        driver = bench->cases[i].statistics.driver;
+    }
+    for (int i = 0; i < count; i++)
+        if (strcmp(devices[i].name, name) == 0 && strcmp(devices[i].driver, driver) == 0)
+            return &devices[i];
+    return NULL;
+}
+
+void bench_machine_describe(struct bench_machine *machine, const struct bench *bench) {
+    *machine = (struct bench_machine){.cores = (int)sysconf(_SC_NPROCESSORS_ONLN)};
+    find_cpu(machine->cpu, sizeof machine->cpu);
+    struct pel_device_info *devices = calloc(PEL_DEVICE_MAX, sizeof *devices);
+    int count = devices ? pel_device_list(devices) : 0;
+    const struct pel_device_info *device = find_device(bench, devices, count);
+    if (device) {
+        memcpy(machine->device, device->name, sizeof machine->device);
+        memcpy(machine->driver, device->driver, sizeof machine->driver);
+        memcpy(machine->version, device->version, sizeof machine->version);
+        machine->compute_units = device->compute_units;
+    }
+    free(devices);
+}
+
+// Names ending in _ms, and how many turns they come from.
+static void add_times(json_t *object, const struct bench_times *times) {
+    json_object_set_new(object, "median_ms", report_number(bench_median(times)));
+    json_object_set_new(object, "min_ms", report_number(bench_least(times)));
+    json_object_set_new(object, "max_ms", report_number(bench_greatest(times)));
+    json_object_set_new(object, "frames", json_integer(times->count));
+}
+
+static void add_frame(json_t *object, const struct bench_case *one) {
+    const struct pel_render_statistics *statistics = &one->statistics;
+    double samples = (double)statistics->samples;
+    json_object_set_new(object, "kernel_ms", report_number(bench_median(&one->kernel)));
+    json_object_set_new(object, "samples", json_integer((json_int_t)statistics->samples));
+    json_object_set_new(object, "msamples_s",
+                        report_number(samples / bench_median(&one->frame) / 1e3));
+    json_object_set_new(object, "reader", json_string(report_reader(statistics->reader)));
+    json_object_set_new(object, "lanes", json_integer(statistics->lanes));
+    json_object_set_new(object, "work_group", json_integer(statistics->work_group));
+    json_object_set_new(object, "device_bytes", json_integer((json_int_t)statistics->device_bytes));
+}
+
+static json_t *peers_json(const struct bench *bench, const struct bench_case *one) {
+    json_t *peers = json_object();
+    for (int p = 0; p < bench->options.peer_count; p++) {
+        json_t *peer = json_object();
+        add_times(peer, &one->peers[p]);
+        json_object_set_new(peer, "ratio", report_number(bench_median(&one->ratios[p])));
+        if (one->peer_problems[p][0])
+            json_object_set_new(peer, "problem", report_text(one->peer_problems[p]));
+        json_object_set_new(peers, bench->options.peers[p].name, peer);
+    }
+    return peers;
+}
+
+static json_t *case_json(const struct bench *bench, int index,
+                         const struct bench_machine *machine) {
+    const struct bench_case *one = &bench->cases[index];
+    json_t *object = json_object();
+    json_object_set_new(object, "suite", json_string(one->suite));
+    json_object_set_new(object, "case", json_integer(index + 1));
+    json_object_set_new(object, "name", report_text(one->name));
+    if (one->transfer[0])
+        json_object_set_new(object, "tf", json_string(one->transfer));
+    json_object_set_new(object, "width", json_integer(one->width));
+    json_object_set_new(object, "height", json_integer(one->height));
+    json_object_set_new(object, "shaded", json_false());
+    json_object_set_new(object, "volumes", json_integer(one->volumes));
+    if (strcmp(one->suite, "task") == 0)
+        json_object_set_new(object, "data",
+                            json_string(bench->generated_task ? "generated" : "files"));
+    add_times(object, &one->frame);
+    if (one->kind == BENCH_FRAME && !one->problem[0])
+        add_frame(object, one);
+    if (one->problem[0])
+        json_object_set_new(object, "problem", report_text(one->problem));
+    if (one->baseline >= 0) {
+        json_object_set_new(object, "baseline", json_integer(one->baseline + 1));
+        json_object_set_new(object, "baseline_ratio",
+                            report_number(bench_median(&one->baseline_ratio)));
+    }
+    if (one->with_peers && bench->options.peer_count)
+        json_object_set_new(object, "peers", peers_json(bench, one));
+    json_object_set_new(object, "device", report_text(machine->device));
+    json_object_set_new(object, "driver", report_text(machine->driver));
+    json_object_set_new(object, "threads", json_integer(machine->compute_units));
+    json_object_set_new(object, "cpu", report_text(machine->cpu));
+    json_object_set_new(object, "cores", json_integer(machine->cores));
+    json_object_set_new(object, "version", json_string(pel_version()));
+    return object;
+}
+
+void bench_write_json(FILE *file, const struct bench *bench, const struct bench_machine *machine) {
+    for (int i = 0; i < bench->case_count; i++) {
+        json_t *object = case_json(bench, i, machine);
+        json_dumpf(object, file, JSON_COMPACT | JSON_REAL_PRECISION(6));
+        json_decref(object);
+        fputc('\n', file);
+    }
+}

@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# bench.sh - cases are measured, compared with each other and with other programs, and reported for people and programs.
+source "$SOURCE/tests/support/cli.bash"
+need_python
+
+# Nothing is measured for a command line that cannot be meant.
+expect 0 '^task ' bench --list
+expect 0 '^volumes ' bench --list
+expect 0 '^start ' bench --list
+expect 2 "^pellucid: no suite 'tsak'; did you mean 'task'" bench tsak
+expect 2 "^pellucid: 'nonsense' is neither a suite nor a scene" bench start nonsense
+expect 2 '^pellucid: --frames: .0. is not a whole number' bench start --frames 0
+expect 2 '^pellucid: --lanes: 3 is none of' bench start --lanes 3
+expect 2 '^pellucid: --peer: .fake. is not of the form NAME=COMMAND' bench task --peer fake
+expect 2 '^pellucid: --peer fake: .widht. is none of .* did you mean .width' bench task --peer 'fake=echo {widht}'
+expect 2 '^pellucid: --peer: only the suite .task.' bench volumes --peer 'fake=true'
+expect 2 '^pellucid: --json and --markdown both want' bench start --json - --markdown -
+expect 4 '^pellucid: nowhere/x.json: cannot write' bench start --json nowhere/x.json
+mkdir empty
+expect 4 '^pellucid: empty: there is neither oracle/task256' bench task --data empty
+mkdir short
+echo too little >short/task256.raw.gz
+expect 5 '^pellucid: short/task256.raw.gz: there must be exactly 16777216 bytes' bench task --data short
+
+need_device
+export PELLUCID_DEVICE=${PELLUCID_DEVICE:-cpu}
+small=(--size 32x24 --frames 2)
+
+# check_lines FILE PYTHON - checks that every line of a file is JSON and that the expression holds; `x` is their list.
+check_lines() {
+    python3 -c '
+import json, sys
+x = [json.loads(line) for line in open(sys.argv[1])]
+if not eval(sys.argv[2]):
+    sys.exit("not so: " + sys.argv[2])' "$1" "$2" 2>trouble || complain "$1: $(tail -1 trouble)"
+}
+
+# Cost is measured for 1 to 32 volumes, in tables and in lines that agree.
+expect 0 '^\| .* 6 \| overlapping  .* 32 \| .* of #1 \|$' bench volumes "${small[@]}" --json v.json --markdown v.md
+cmp -s out v.md || complain "--markdown differs from standard output"
+grep -q '^| *11 | side by side .* 32 |' out || complain "no 32 volumes side by side: $(cat out)"
+check_lines v.json '[c["volumes"] for c in x] == [1, 2, 4, 8, 16, 32, 2, 4, 8, 16, 32]'
+check_lines v.json 'all((c["width"], c["height"], c["frames"]) == (32, 24, 2) for c in x)'
+check_lines v.json 'all(0 < c["min_ms"] <= c["median_ms"] <= c["max_ms"] and c["kernel_ms"] > 0 for c in x)'
+check_lines v.json 'all(abs(c["msamples_s"] * c["median_ms"] * 1e3 / c["samples"] - 1) < 0.01 for c in x)'
+check_lines v.json 'x[5]["samples"] > 4 * x[2]["samples"] and x[10]["samples"] < 4 * x[6]["samples"]'
+check_lines v.json 'all(c["baseline"] == 1 and c["baseline_ratio"] > 0 for c in x[1:]) and "baseline" not in x[0]'
+check_lines v.json 'all(c["device"] and c["driver"] and c["threads"] > 0 and c["reader"] and c["lanes"] for c in x)'
+
+# A scene of one's own, JSON on standard output and nothing beside it.
+echo '{"volumes": [{"generate": {"kind": "box", "size": 12}}], "render": {"size": [20, 10]}}' >scene.json
+expect 0 '' bench scene.json --frames 3 --lanes 4 --json -
+check_lines out 'len(x) == 1 and x[0]["suite"] == "scene" and x[0]["name"] == "scene.json" and x[0]["lanes"] == 4'
+check_lines out '(x[0]["width"], x[0]["height"], x[0]["frames"]) == (20, 10, 3)'
+[ -s err ] && complain "bench talks without a terminal: $(cat err)"
+
+# Cold and warm starts, in order.
+expect 0 '^\| *2 \| warm .* of #1 \|$' bench start --frames 1 --json start.json
+check_lines start.json '[c["name"] for c in x] == ["cold", "warm"] and all(c["device"] for c in x)'
+
+# The task, without its files: another program takes part in the turns and its ratio is told. One that cannot do some of
+# the work is left out there; one that never gives a time is a mistake.
+cat >peer <<'EOF'
+#!/bin/sh
+echo "$@" >>asked
+[ "$4" -lt 8 ] || exit 3
+echo some talk
+echo '{"median_ms": 0.5}'
+EOF
+chmod +x peer
+unset PELLUCID_TEST_DATA
+expect 0 '/ fake \|$' bench task --size 16x12 --frames 1 --peer 'fake=./peer {tf} {width} {height} {volumes}' --json task.json
+grep -q "^pellucid: no task256.raw.gz .*own making" err || complain "nobody told that the volume is made up"
+grep -q "^pellucid: task: peer 'fake' is left out for T2, 8 volumes, 16x12: exit status 3" err ||
+    complain "nobody told that the peer failed: $(cat err)"
+for tf in T1 T2 T3; do
+    for volumes in 1 2 4 8; do
+        grep -qx "$tf 16 12 $volumes" asked || complain "the peer was not asked for $tf, $volumes"
+    done
+done
+check_lines task.json '[(c["tf"], c["volumes"]) for c in x[:12]] == [(t, v) for t in ("T1", "T2", "T3") for v in (1, 2, 4, 8)]'
+check_lines task.json 'all(c["data"] == "generated" and c["shaded"] is False for c in x)'
+check_lines task.json 'all(abs(c["peers"]["fake"]["ratio"] * 0.5 / c["median_ms"] - 1) < 0.01 for c in x[:3])'
+check_lines task.json 'x[3]["peers"]["fake"]["ratio"] is None and x[3]["peers"]["fake"]["problem"] == "exit status 3"'
+check_lines task.json '[c["lanes"] for c in x if c["name"].endswith(("lane", "lanes"))] == [1, 4, 8, 16]'
+check_lines task.json 'all(c["baseline"] == 1 for c in x[12:])'
+expect 2 '^pellucid: --peer mute: never gave a time: its last line' bench task --size 16x12 --frames 1 --peer 'mute=echo hello'
+
+# Nothing is left behind.
+[ -z "$(find . -name '*.[0-9]*')" ] || complain "temporaries are left: $(ls)"
+exit $failed
