@@ -20,7 +20,8 @@ static void put_bits(struct bit_writer *writer, unsigned value, unsigned count) 
 }
 
 // Compresses `plain`: planes of every skip-th byte, then differences to the gradient one strip
-// before, in groups of 100 with 8 bits each, or none where all differences are 0.
+// before (a strip of 1 foretells nothing), in groups of 100 with 8 bits each, or none where all
+// differences are 0.
 static struct test_bytes compress(const struct test_bytes *plain, unsigned skip, unsigned strip) {
     struct bit_writer writer = {0};
     unsigned char planes[4096];
@@ -32,7 +33,7 @@ static struct test_bytes compress(const struct test_bytes *plain, unsigned skip,
             planes[count++] = plain->bytes[i];
     for (size_t i = 0; i < count; i++) {
         int expected = i > 0 ? planes[i - 1] : 0;
-        if (i > strip)
+        if (strip > 1 && i > strip)
             expected += planes[i - strip] - planes[i - strip - 1];
         differences[i] = (planes[i] - expected) & 255;
     }
