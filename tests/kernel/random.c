@@ -11,7 +11,7 @@ static uint64_t number_from(const char *variable, uint64_t otherwise) {
 
 static void check_seeds(enum pel_reader reader, int lanes) {
     uint64_t first = number_from("PELLUCID_TEST_SEED", 1);
-    uint64_t count = number_from("PELLUCID_TEST_COUNT", scene_is_small() ? 6 : 40);
+    uint64_t count = number_from("PELLUCID_TEST_COUNT", scene_is_small() ? 6 : 24);
     print_message("seeds %llu to %llu\n", (unsigned long long)first,
                   (unsigned long long)(first + count - 1));
     struct pel_renderer *renderer = judge_renderer(reader, lanes);
