@@ -18,6 +18,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, box_low);
     *out++ = OFFSET(struct part, box_high);
     *out++ = OFFSET(struct part, memory_from_voxel);
+    *out++ = OFFSET(struct part, atlas_from_memory);
     *out++ = OFFSET(struct part, table_scale);
     *out++ = OFFSET(struct part, table_bias);
     *out++ = OFFSET(struct part, table_last);
@@ -29,6 +30,11 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, voxels);
     *out++ = OFFSET(struct part, filter);
     *out++ = OFFSET(struct part, table_nearest);
+    *out++ = OFFSET(struct part, cells);
+    *out++ = OFFSET(struct part, cell_row);
+    *out++ = OFFSET(struct part, cell_slice);
+    *out++ = OFFSET(struct part, ranges);
+    *out++ = OFFSET(struct part, visible);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);

@@ -43,7 +43,7 @@ __constant sampler_t filter =
 
 INLINE float4 read_atlas(MEMORY_PARAMETERS, __constant struct part *part, float x, float y, float z) {
     // Texel centres lie at halves, and there a linear filter reads one texel.
-    float4 at = (float4)(x, y, z, 0.0f);
+    float4 at = (float4)(x, y, z, 0.0f) + part->atlas_from_memory;
     if (IS_NEAREST(part))
         at = floor(at + 0.5f);
     at += 0.5f;

@@ -97,7 +97,8 @@ struct pel_scene *bench_scene(struct bench *bench, struct pel_volume *const *vol
                                                  .step = 0.5,
                                                  .phase = 0.5,
                                                  .termination = 0.95,
-                                                 .origin = PEL_ORIGIN_VOLUMES};
+                                                 .origin = PEL_ORIGIN_VOLUMES,
+                                                 .skip = PEL_SKIP_NONE};
     return scene;
 }
 

@@ -14,6 +14,7 @@ enum {
     KEY_FILTER,
     KEY_TERMINATION,
     KEY_PHASE,
+    KEY_SKIP,
     KEY_DENSITY,
     KEY_BACKGROUND,
     KEY_TRANSFER,
@@ -53,6 +54,8 @@ static const struct argp_option argp_options[] = {
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
     {"termination", KEY_TERMINATION, "X", 0, "End a ray once its opacity exceeds this; 1 for never",
      0},
+    {"skip", KEY_SKIP, "auto|none|grid|distance", 0,
+     "How empty space is skipped; the picture is the same with each", 0},
     {0, 0, NULL, 0, "The device:", 5},
     {"device", KEY_DEVICE, "D", 0,
      "Number, part of the name, or type (gpu, cpu); 'pellucid devices' lists them", 0},
@@ -140,6 +143,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_PHASE:
         good = add_number(options, "--phase", "render.phase", argument);
+        break;
+    case KEY_SKIP:
+        overrides_add_text(&options->overrides, "render.skip", argument);
         break;
     case KEY_FILTER:
         overrides_add_text(&options->overrides, "volumes.*.filter", argument);

@@ -10,13 +10,14 @@
 
 enum { PICTURE_MAX = 32768 };
 
-static const char *const render_keys[] = {"comment", "size",        "mixing", "step",
-                                          "phase",   "termination", "origin", NULL};
+static const char *const render_keys[] = {"comment",     "size",   "mixing", "step", "phase",
+                                          "termination", "origin", "skip",   NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
 
 // In the order of their enums.
 static const char *const mixing_names[] = {"sum", "over", NULL};
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
+static const char *const skip_names[] = {"auto", "none", "grid", "distance", NULL};
 static const char *const alpha_names[] = {"straight", "premultiplied", NULL};
 
 static const char *const background_names[] = {"black", "white",   "grey", "red",
@@ -78,16 +79,18 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
         return true;
     const struct pel_range step_range = {.low = 0.001, .high = 1000};
     const struct pel_range termination_range = {.low = 0, .high = 1, .low_open = true};
-    int mixing = (int)render->mixing, origin = (int)render->origin;
+    int mixing = (int)render->mixing, origin = (int)render->origin, skip = (int)render->skip;
     bool good =
         pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
         pel_node_get_name(&node, "mixing", mixing_names, &mixing) &&
         pel_node_get_number(&node, "step", &step_range, &render->step) &&
         pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
         pel_node_get_number(&node, "termination", &termination_range, &render->termination) &&
-        pel_node_get_name(&node, "origin", origin_names, &origin);
+        pel_node_get_name(&node, "origin", origin_names, &origin) &&
+        pel_node_get_name(&node, "skip", skip_names, &skip);
     render->mixing = (enum pel_mixing)mixing;
     render->origin = (enum pel_sample_origin)origin;
+    render->skip = (enum pel_skip)skip;
     return good;
 }
 

@@ -113,11 +113,11 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         *part = *pattern;
         for (int i = 0; i < 3; i++)
             part->voxel_from_world[i] = to_float4(voxel_from_world.m[i], voxel_from_world.m[i][3]);
-        double low[3], high[3], shift[3];
+        double low[3], high[3], shift[3] = {1, 1, 1}, origin[3];
         for (int i = 0; i < 3; i++) {
             low[i] = -outer;
             high[i] = volume->dims[i] - 1 + outer;
-            shift[i] = 1.0 + (double)slab->origin[i];
+            origin[i] = (double)slab->origin[i];
         }
         // Slabs meet at voxel centres, half a voxel before the first slice they own.
         if (slab->first > 0)
@@ -128,6 +128,7 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         part->box_low = to_float4(low, 0);
         part->box_high = to_float4(high, 0);
         part->memory_from_voxel = to_float4(shift, 0);
+        part->atlas_from_memory = to_float4(origin, 0);
         part->row = volume->dims[0] + 2;
         part->slice = (volume->dims[0] + 2) * (volume->dims[1] + 2);
         part->buffer = slab->buffer;

@@ -30,6 +30,7 @@ struct part {
     float4 voxel_from_world[3]; // rows of an affine matrix
     float4 box_low, box_high;   // voxel coordinates
     float4 memory_from_voxel;   // to be added to voxel coordinates
+    float4 atlas_from_memory;   // and to memory coordinates, where the part lies in an image
     float table_scale;          // table entry = raw * table_scale + table_bias
     float table_bias;
     float table_last;           // the last entry's index
@@ -46,7 +47,7 @@ struct part {
     u32 visible;                // index of the table's first count of visible entries
 };
 
-SHARED_ASSERT(sizeof(struct part) == 160, part_size);
+SHARED_ASSERT(sizeof(struct part) == 176, part_size);
 
 struct world {
     struct camera camera;
@@ -62,6 +63,6 @@ struct world {
     struct part parts[WORLD_PART_MAX];
 };
 
-SHARED_ASSERT(sizeof(struct world) == 176 + 160 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 176 + 176 * WORLD_PART_MAX, world_size);
 
 #endif
