@@ -276,11 +276,11 @@ PEL_API bool pel_camera_fit(struct pel_camera *camera, const char *view,
 // ---- Rigid transforms --------------------------------------------------------------------------
 
 // Reads a rigid transform from world to world (RAS): an ITK .tfm (text, Euler3D, VersorRigid3D or
-// affine), an FSL FLIRT .mat, or a plain 4x4 of numbers. ITK files map points of the fixed image to
-// the moving one in LPS, so the result is their inverse in RAS: it moves the moving volume onto the
-// fixed. FSL's .mat maps between scaled voxel spaces and needs both volumes (`moving`, `fixed`);
-// ARGUMENT if one is missing, but a .mat given neither is taken as a plain 4x4, with a warning.
-// FORMAT if the result is not a rotation and translation.
+// affine; or the binary .mat of ANTs), an FSL FLIRT .mat, or a plain 4x4 of numbers. ITK files map
+// points of the fixed image to the moving one in LPS, so the result is their inverse in RAS: it
+// moves the moving volume onto the fixed. FSL's .mat maps between scaled voxel spaces and needs
+// both volumes (`moving`, `fixed`); ARGUMENT if one is missing, but a .mat given neither is taken
+// as a plain 4x4, with a warning. FORMAT if the result is not a rotation and translation.
 PEL_API bool pel_transform_load(struct pel_matrix *world_from_world, const char *path,
                                 const struct pel_volume *moving, const struct pel_volume *fixed);
 

@@ -23,23 +23,42 @@
 struct stack {
     const char *name;
     bool split;                  // samples are channels, not a colour
+    bool indices;                // palettes are a way to look at the data, not the data
     struct pel_tiff_shape shape; // of all pages
     struct pel_tiff_page page;   // the first one
     struct pel_tiff_stack meta;  // of the first file
     int dims[3];
     size_t plane_bytes;
+    bool warned; // of libtiff's first warning
     struct pel_volume *volume;
     void *wide;
 };
 
 // ---- What is lost ------------------------------------------------------------------------------
 
+// The name of a colour space whose translation to RGB loses something; NULL for the others.
+static const char *lossy_colours(uint16_t photometric) {
+    switch (photometric) {
+    case PHOTOMETRIC_SEPARATED:
+        return "CMYK";
+    case PHOTOMETRIC_CIELAB:
+    case PHOTOMETRIC_ICCLAB:
+    case PHOTOMETRIC_ITULAB:
+        return "L*a*b*";
+    case PHOTOMETRIC_LOGL:
+    case PHOTOMETRIC_LOGLUV:
+        return "logarithmic";
+    default:
+        return NULL;
+    }
+}
+
 static void warn_about(const struct stack *stack) {
     const struct pel_tiff_page *page = &stack->page;
     const struct pel_tiff_shape *shape = &stack->shape;
-    if (shape->rendered)
-        pel_warn("%s: the colours of photometric interpretation %d became RGB", stack->name,
-                 page->photometric);
+    const char *lossy = lossy_colours(page->photometric);
+    if (lossy && (shape->rendered || shape->cmyk))
+        pel_warn("%s: %s colours became 8-bit RGB", stack->name, lossy);
     else if (shape->components > 1 && page->bits != 8 && page->palette == PEL_PALETTE_NONE)
         pel_warn("%s: colours of %d bits became 8-bit ones; taking single channels keeps them",
                  stack->name, page->bits);
@@ -104,15 +123,16 @@ static void *plane_at(const struct stack *stack, int z) {
 // ---- One file ----------------------------------------------------------------------------------
 
 // Reads the shape of the first page and the metadata.
-static bool begin(struct stack *stack, const struct pel_tiff_file *file,
+static bool begin(struct stack *stack, const struct pel_tiff_file *file, bool alone,
                   const struct pel_load_options *options) {
     int channel_count;
     stack->page = file->pages[0];
     stack->split = options->split_channels || pel_tiff_is_composite(file);
+    stack->indices = pel_tiff_is_imagej(file);
     if (!pel_tiff_shape_of(&stack->shape, &channel_count, &stack->page, stack->split,
-                           pel_tiff_is_imagej(file)))
+                           stack->indices))
         return pel_fail_in("page 0");
-    if (!pel_tiff_stack_init(&stack->meta, file, stack->name, channel_count, options))
+    if (!pel_tiff_stack_init(&stack->meta, file, stack->name, channel_count, alone, options))
         return false;
     stack->shape.first_sample = stack->meta.sample;
     warn_about(stack);
@@ -124,8 +144,7 @@ static bool read_plane(struct stack *stack, struct pel_tiff_file *file, int page
     const struct pel_tiff_page *page = &file->pages[page_index];
     struct pel_tiff_shape shape;
     int channel_count;
-    if (!pel_tiff_shape_of(&shape, &channel_count, page, stack->split,
-                           stack->shape.indices && page->palette != PEL_PALETTE_NONE))
+    if (!pel_tiff_shape_of(&shape, &channel_count, page, stack->split, stack->indices))
         return pel_fail_in("page %d", page_index);
     const struct pel_tiff_shape *first = &stack->shape;
     shape.first_sample = first->first_sample;
@@ -138,8 +157,12 @@ static bool read_plane(struct stack *stack, struct pel_tiff_file *file, int page
                         "page %d: %d samples of %d bits, not of the first page's type (%d of %d)",
                         page_index, page->samples, page->bits, stack->page.samples,
                         stack->page.bits);
-    return pel_tiff_read_page(file, page, &shape, plane_at(stack, z)) ||
-           pel_fail_in("page %d", page_index);
+    if (!pel_tiff_read_page(file, page, &shape, plane_at(stack, z)))
+        return pel_fail_in("page %d", page_index);
+    if (file->reports.warning[0] && !stack->warned)
+        pel_warn("%s: plane %d: libtiff warns: %s", stack->name, z, file->reports.warning);
+    stack->warned = stack->warned || file->reports.warning[0];
+    return true;
 }
 
 static bool read_pages(struct stack *stack, struct pel_tiff_file *file) {
@@ -163,10 +186,12 @@ static bool read_following(struct stack *stack, struct pel_tiff_file *file, cons
     const struct pel_tiff_page *page = &stack->page;
     const struct pel_tiff_shape *shape = &stack->shape;
     size_t voxel_bytes = (size_t)shape->components * pel_element_bytes(shape->element);
-    if (page->bits % 8 || page->orientation != ORIENTATION_TOPLEFT ||
+    if (page->photometric == PHOTOMETRIC_MINISWHITE || page->bits % 8 ||
+        page->orientation != ORIENTATION_TOPLEFT ||
         voxel_bytes * 8 != (size_t)page->bits * page->samples)
-        return pel_fail(PEL_ERROR_UNSUPPORTED, "a raw stack of %d samples of %d bits",
-                        page->samples, page->bits);
+        return pel_fail(PEL_ERROR_UNSUPPORTED,
+                        "a raw stack of %d samples of %d bits, photometric interpretation %d",
+                        page->samples, page->bits, page->photometric);
     uint64_t start = TIFFGetStrileOffset(file->handle, 0);
     uint64_t last = 0, end;
     for (int z = 0; z < stack->meta.plane_count; z++)
@@ -201,13 +226,21 @@ static bool read_file(struct stack *stack, const char *path,
     if (!pel_tiff_open(&file, path))
         return false;
     bool done =
-        begin(stack, &file, options) &&
+        begin(stack, &file, true, options) &&
         (stack->meta.follow ? read_following(stack, &file, path) : read_pages(stack, &file));
     pel_tiff_close(&file);
     return done || pel_fail_in("%s", path);
 }
 
 // ---- Many files --------------------------------------------------------------------------------
+
+// A page of ImageJ may be a whole stack.
+static bool check_one_plane(const struct stack *stack) {
+    if (stack->meta.follow)
+        return pel_fail(PEL_ERROR_UNSUPPORTED, "%d slices; files read together must have one each",
+                        stack->meta.plane_count);
+    return true;
+}
 
 static bool read_slice(struct stack *stack, const struct pel_tiff_list *list, int z,
                        uint64_t all_bytes, const struct pel_load_options *options) {
@@ -222,7 +255,7 @@ static bool read_slice(struct stack *stack, const struct pel_tiff_list *list, in
         uint64_t decoded;
         if (__builtin_mul_overflow(file.pages[0].decoded_bytes, (uint64_t)list->count, &decoded))
             decoded = UINT64_MAX;
-        done = begin(stack, &file, options) &&
+        done = begin(stack, &file, false, options) && check_one_plane(stack) &&
                check_justified(decoded, all_bytes, stack->page.compression) &&
                allocate(stack, list->count);
     }

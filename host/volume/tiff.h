@@ -40,13 +40,18 @@ struct pel_tiff_page {
 // The alpha member where the tag is missing.
 #define PEL_ALPHA_UNTOLD UINT16_MAX
 
+// libtiff's first error and first warning since they were emptied; "" when there is none.
+struct pel_tiff_reports {
+    char error[256], warning[256];
+};
+
 struct pel_tiff_file {
     TIFF *handle;
     size_t bytes; // of the file
     struct pel_tiff_page *pages;
     int page_count;    // at least 1
     char *description; // ImageDescription of the first page; "" when there is none
-    char message[256]; // libtiff's first complaint since it was emptied; "" when there is none
+    struct pel_tiff_reports reports;
 };
 
 // Opens a file and lists its pages. Afterwards close it.
@@ -56,9 +61,10 @@ void pel_tiff_close(struct pel_tiff_file *file);
 // Records libtiff's complaint, or `otherwise` when it did not say anything (FORMAT). Returns false.
 bool pel_tiff_fail(const struct pel_tiff_file *file, const char *otherwise);
 
-// A libtiff handle that reports into `message` (at least 256 bytes) and `mode` as in TIFFOpen; at
-// most `limit` bytes are allocated at once. NULL (FILE, FORMAT).
-TIFF *pel_tiff_handle(const char *path, const char *mode, size_t limit, char *message);
+// A libtiff handle that reports into `reports`, `mode` as in TIFFOpen. At most `limit` bytes are
+// allocated at once; 0 is no limit. NULL (FORMAT, MEMORY).
+TIFF *pel_tiff_handle(const char *path, const char *mode, size_t limit,
+                      struct pel_tiff_reports *reports);
 
 // The most bytes a compressed byte can become, per compression scheme; 1 for no compression.
 uint64_t pel_tiff_expansion(uint16_t compression);
@@ -70,6 +76,7 @@ struct pel_tiff_shape {
     int components;   // 1, or 3 and 4 of bytes: RGB, and RGB with alpha
     int first_sample; // the stored sample of component 0
     bool rendered;    // through libtiff's RGBA interface, which knows odd colour spaces
+    bool cmyk;        // four inks become RGB
     bool indices;     // palette indices are the values
 };
 
@@ -78,7 +85,8 @@ struct pel_tiff_shape {
 bool pel_tiff_shape_of(struct pel_tiff_shape *shape, int *channel_count,
                        const struct pel_tiff_page *page, bool split, bool indices);
 
-// Decodes a page to shape->width * height * components elements at `out`.
+// Decodes a page to shape->width * height * components elements at `out`. What libtiff found odd
+// about the pixels, such as damage it has gone over, is in file->reports.warning then.
 bool pel_tiff_read_page(struct pel_tiff_file *file, const struct pel_tiff_page *page,
                         const struct pel_tiff_shape *shape, void *out);
 
@@ -95,9 +103,10 @@ struct pel_tiff_stack {
 };
 
 // Reads metadata, and picks options->time and options->channel. `channel_count` samples of a page
-// can be chosen from (pel_tiff_shape_of).
+// can be chosen from (pel_tiff_shape_of). A file that is `alone` is the whole stack; otherwise it
+// is one slice of it, whatever its metadata say.
 bool pel_tiff_stack_init(struct pel_tiff_stack *stack, const struct pel_tiff_file *file,
-                         const char *name, int channel_count,
+                         const char *name, int channel_count, bool alone,
                          const struct pel_load_options *options);
 void pel_tiff_stack_finish(struct pel_tiff_stack *stack);
 

@@ -1,8 +1,9 @@
 // tiff_file.c - a TIFF file's pages: where they are and how they are stored.
 //
 // libtiff reports through callbacks of its own handle, never on stderr, and may not allocate more
-// at once than a multiple of the file's size. Its complaints become the sentence of a failure; its
-// warnings are about oddities of the writer and are dropped. It notices chains of directories that
+// at once than a multiple of the file's size. Its errors become the sentence of a failure. Its
+// warnings about directories tell of oddities of the writer and are dropped; those about pixels
+// tell of damage and are passed on. It notices chains of directories that
 // loop; a chain that breaks off ends the stack there, with a warning. Sub-directories are not in
 // the chain, so they are never seen.
 #include "volume/tiff.h"
@@ -14,48 +15,57 @@
 #include "base/file.h"
 #include "base/memory.h"
 
-enum { MESSAGE_BYTES = 256 };
+static void keep_first(char text[256], const char *format, va_list arguments) {
+    if (!text[0])
+        vsnprintf(text, 256, format, arguments);
+}
 
 static int on_error(TIFF *handle, void *user, const char *module, const char *format,
-                    va_list args) {
+                    va_list arguments) {
     (void)handle, (void)module;
-    char *message = user;
-    if (!message[0])
-        vsnprintf(message, MESSAGE_BYTES, format, args);
+    keep_first(((struct pel_tiff_reports *)user)->error, format, arguments);
     return 1;
 }
 
 static int on_warning(TIFF *handle, void *user, const char *module, const char *format,
-                      va_list args) {
-    (void)handle, (void)user, (void)module, (void)format, (void)args;
+                      va_list arguments) {
+    (void)handle, (void)module;
+    keep_first(((struct pel_tiff_reports *)user)->warning, format, arguments);
     return 1;
 }
 
-TIFF *pel_tiff_handle(const char *path, const char *mode, size_t limit, char *message) {
-    message[0] = 0;
+TIFF *pel_tiff_handle(const char *path, const char *mode, size_t limit,
+                      struct pel_tiff_reports *reports) {
+    *reports = (struct pel_tiff_reports){0};
     TIFFOpenOptions *options = TIFFOpenOptionsAlloc();
     if (!options) {
         pel_fail(PEL_ERROR_MEMORY, "cannot open a TIFF file: memory ran out");
         return NULL;
     }
     TIFFOpenOptionsSetMaxSingleMemAlloc(options, (tmsize_t)limit);
-    TIFFOpenOptionsSetErrorHandlerExtR(options, on_error, message);
-    TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, NULL);
+    TIFFOpenOptionsSetErrorHandlerExtR(options, on_error, reports);
+    TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, reports);
     TIFF *handle = TIFFOpenExt(path, mode, options);
     TIFFOpenOptionsFree(options);
     if (!handle)
         pel_fail(PEL_ERROR_FORMAT, "not a readable TIFF file: %s",
-                 message[0] ? message : "no directory");
+                 reports->error[0] ? reports->error : "no directory");
     return handle;
 }
 
 bool pel_tiff_fail(const struct pel_tiff_file *file, const char *otherwise) {
-    return pel_fail(PEL_ERROR_FORMAT, "%s", file->message[0] ? file->message : otherwise);
+    // When whole strips are read libtiff does not know the row, and says so with 2^32 - 1.
+    const char *nowhere = strstr(file->reports.error, "4294967295"),
+               *rest = strchr(file->reports.error, ';');
+    if (nowhere && rest)
+        return pel_fail(PEL_ERROR_FORMAT, "read error:%s", rest + 1);
+    return pel_fail(PEL_ERROR_FORMAT, "%s",
+                    file->reports.error[0] ? file->reports.error : otherwise);
 }
 
 // The figures are the most each code can do: deflate 258 bytes from 2 bits, LZW a string of 4096
-// from 12 bits, PackBits 128 from 2, a fax row of any length from 1 bit. Where no figure is known
-// the fax one is taken.
+// from 12 bits, PackBits 128 from 2 bytes, JPEG a block of 64 from 2 bits (progressive ones a
+// little less), a fax row of any length from 1 bit. Where no figure is known the fax one is taken.
 uint64_t pel_tiff_expansion(uint16_t compression) {
     switch (compression) {
     case COMPRESSION_NONE:
@@ -66,6 +76,9 @@ uint64_t pel_tiff_expansion(uint16_t compression) {
     case COMPRESSION_ADOBE_DEFLATE:
     case COMPRESSION_PIXARLOG:
         return 1032;
+    case COMPRESSION_JPEG:
+    case COMPRESSION_OJPEG:
+        return 1024;
     case COMPRESSION_LZW:
         return 2731;
     default:
@@ -142,11 +155,14 @@ static bool list_pages(struct pel_tiff_file *file, const char *path) {
         file->page_count++;
         if (TIFFLastDirectory(file->handle))
             return true;
-        file->message[0] = 0;
+        file->reports = (struct pel_tiff_reports){0};
         if (file->page_count < PEL_TIFF_PAGE_MAX && TIFFReadDirectory(file->handle))
             continue;
+        const struct pel_tiff_reports *reports = &file->reports;
         pel_warn("%s: the stack ends after page %d: %s", path, file->page_count - 1,
-                 file->message[0] ? file->message : "the next one cannot be read");
+                 reports->error[0]     ? reports->error
+                 : reports->warning[0] ? reports->warning
+                                       : "the next one cannot be read");
         return true;
     }
 }
@@ -170,7 +186,7 @@ bool pel_tiff_open(struct pel_tiff_file *file, const char *path) {
     // the file's size; the constant is for the working memory of its codecs.
     size_t limit = file->bytes < (SIZE_MAX >> 16) ? file->bytes * 2731 : SIZE_MAX >> 4;
     // "m": no memory map, which would end the program when the file is cut short meanwhile.
-    file->handle = pel_tiff_handle(path, "rm", limit + ((size_t)64 << 20), file->message);
+    file->handle = pel_tiff_handle(path, "rm", limit + ((size_t)64 << 20), &file->reports);
     if (!file->handle)
         return pel_fail_in("%s", path);
     const char *description = NULL;

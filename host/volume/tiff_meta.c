@@ -242,9 +242,6 @@ static bool ome_order(struct pel_tiff_stack *stack, const struct pel_tiff_file *
                       const char *name, const struct pel_ome *ome, int channel_count,
                       const struct pel_load_options *options) {
     int planes_of_channels = ome->size_c / ome->samples;
-    if (ome->size_z > file->page_count)
-        return pel_fail(PEL_ERROR_FORMAT, "OME-XML tells of %d slices, the file has %d pages",
-                        ome->size_z, file->page_count);
     if (!choose(options, name, planes_of_channels * channel_count, ome->size_t_) ||
         !allocate_planes(stack, ome->size_z))
         return false;
@@ -256,7 +253,7 @@ static bool ome_order(struct pel_tiff_stack *stack, const struct pel_tiff_file *
 // ---- All together ------------------------------------------------------------------------------
 
 bool pel_tiff_stack_init(struct pel_tiff_stack *stack, const struct pel_tiff_file *file,
-                         const char *name, int channel_count,
+                         const char *name, int channel_count, bool alone,
                          const struct pel_load_options *options) {
     *stack = (struct pel_tiff_stack){
         .spacing_mm = {1, 1, 1}, .slope = 1, .space = "no resolution, 1 mm assumed"};
@@ -264,7 +261,8 @@ bool pel_tiff_stack_init(struct pel_tiff_stack *stack, const struct pel_tiff_fil
     bool done;
     if (pel_tiff_is_ome(file) && pel_ome_init(&ome, file->description)) {
         ome_spacing(stack, &ome);
-        done = ome_order(stack, file, name, &ome, channel_count, options);
+        done = alone ? ome_order(stack, file, name, &ome, channel_count, options)
+                     : plain_order(stack, file, name, channel_count, options);
         pel_ome_finish(&ome);
     } else if (pel_tiff_is_imagej(file)) {
         imagej_spacing(stack, file, name);

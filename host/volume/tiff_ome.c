@@ -208,8 +208,9 @@ bool pel_ome_planes(const struct pel_ome *ome, int page_count, int channel, int 
     for (int z = 0; z < ome->size_z; z++) {
         if (planes[z] == ELSEWHERE)
             return pel_fail(PEL_ERROR_UNSUPPORTED,
-                            "slice %d of channel %d at time %d lies in another file of its set", z,
-                            channel, time);
+                            "slice %d of channel %d at time %d lies in another file of its set; a "
+                            "folder can be read as one file per slice",
+                            z, channel, time);
         if (planes[z] == MISSING)
             return pel_fail(PEL_ERROR_FORMAT, "no page holds slice %d of channel %d at time %d", z,
                             channel, time);

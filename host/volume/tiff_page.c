@@ -345,9 +345,6 @@ static void orient(struct sink *sink) {
 static bool read_rendered(struct pel_tiff_file *file, const struct sink *sink) {
     const struct pel_tiff_page *page = sink->page;
     char reason[1024] = "";
-    if (page->bits > 8 && page->photometric == PHOTOMETRIC_SEPARATED)
-        return pel_fail(PEL_ERROR_UNSUPPORTED, "CMYK colours of %d bits; 8 can be read",
-                        page->bits);
     if (!TIFFRGBAImageOK(file->handle, reason))
         return pel_fail(PEL_ERROR_UNSUPPORTED, "photometric interpretation %d: %s",
                         page->photometric, reason);
@@ -404,18 +401,41 @@ static void make_straight(uint8_t *rgba, size_t count) {
     }
 }
 
+// Reads four inks into a buffer of their own and mixes them.
+static bool read_cmyk(struct pel_tiff_file *file, const struct sink *sink) {
+    size_t count = (size_t)sink->shape->width * sink->shape->height;
+    uint8_t *inks = pel_allocate(count, 4);
+    if (!inks)
+        return false;
+    struct pel_tiff_shape shape = *sink->shape;
+    struct sink four = *sink;
+    shape.components = 4;
+    four.shape = &shape;
+    four.out = (char *)inks;
+    bool done = read_blocks(file, &four);
+    uint8_t *rgb = (uint8_t *)sink->out;
+    for (size_t i = 0; done && i < count; i++)
+        for (int c = 0; c < 3; c++)
+            rgb[3 * i + (size_t)c] =
+                (uint8_t)(((255 - inks[4 * i + (size_t)c]) * (255 - inks[4 * i + 3]) + 127) / 255);
+    free(inks);
+    return done;
+}
+
 bool pel_tiff_read_page(struct pel_tiff_file *file, const struct pel_tiff_page *page,
                         const struct pel_tiff_shape *shape, void *out) {
-    file->message[0] = 0;
+    file->reports = (struct pel_tiff_reports){0};
     if (TIFFCurrentDirOffset(file->handle) != page->offset &&
         !TIFFSetSubDirectory(file->handle, page->offset))
         return pel_tiff_fail(file, "its directory cannot be read");
     // Complaints about tags that did not keep the directory from being read are of no interest.
-    file->message[0] = 0;
+    file->reports = (struct pel_tiff_reports){0};
     struct sink sink = {.page = page, .shape = shape, .out = out};
     orient(&sink);
     if (shape->rendered)
         return read_rendered(file, &sink);
+    if (shape->cmyk)
+        return read_cmyk(file, &sink);
     uint8_t *palette = NULL;
     if (page->photometric == PHOTOMETRIC_PALETTE && !shape->indices) {
         palette = make_palette(file, page, shape->components);

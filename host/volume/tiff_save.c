@@ -82,15 +82,16 @@ static void warn_about(const struct pel_volume *volume, const double spacing_mm[
         pel_warn("%s: TIFF keeps the spacing, but neither position nor direction", volume->name);
 }
 
-static bool write_all(const char *path, const struct pel_volume *volume, char *message) {
+static bool write_all(const char *path, const struct pel_volume *volume) {
     double spacing_mm[3];
     char description[512];
+    struct pel_tiff_reports reports;
     pel_volume_spacing(volume, spacing_mm);
     write_description(description, sizeof description, volume, spacing_mm[2]);
     warn_about(volume, spacing_mm);
     // Deflate makes noise a little larger, and the tags need room; beyond 4 GB it is BigTIFF.
     bool big = pel_volume_bytes(volume) > (size_t)3900 << 20;
-    TIFF *handle = pel_tiff_handle(path, big ? "w8" : "w", 0, message);
+    TIFF *handle = pel_tiff_handle(path, big ? "w8" : "w", 0, &reports);
     if (!handle)
         return false;
     void *row = pel_allocate((size_t)volume->dims[0], pel_voxel_bytes(volume->type));
@@ -101,12 +102,13 @@ static bool write_all(const char *path, const struct pel_volume *volume, char *m
             TIFFSetField(handle, TIFFTAG_IMAGEDESCRIPTION, description);
         done = write_slice(handle, volume, k, row);
         if (!done)
-            pel_fail(PEL_ERROR_FILE, "slice %d: %s", k, message[0] ? message : "cannot write");
+            pel_fail(PEL_ERROR_FILE, "slice %d: %s", k,
+                     reports.error[0] ? reports.error : "cannot write");
     }
     free(row);
     TIFFClose(handle);
-    if (done && message[0])
-        return pel_fail(PEL_ERROR_FILE, "%s", message);
+    if (done && reports.error[0])
+        return pel_fail(PEL_ERROR_FILE, "%s", reports.error);
     return done;
 }
 
@@ -116,8 +118,7 @@ bool pel_tiff_save(const struct pel_volume *volume, const char *path) {
         return false;
     fclose(output.stream);
     output.stream = NULL;
-    char message[256];
-    if (!write_all(output.temporary, volume, message)) {
+    if (!write_all(output.temporary, volume)) {
         pel_output_abandon(&output);
         return pel_fail_in("%s", path);
     }

@@ -8,15 +8,17 @@
 // - A palette of greys becomes grey, any other RGB8. In ImageJ's files the palette is a way to
 //   look at the data, so the indices are the values.
 // - Several samples that are no RGB colour are channels, of which one is chosen.
-// - YCbCr, CMYK, Lab and logarithmic colours become RGB8 through libtiff's RGBA interface.
+// - CMYK becomes RGB8 as (1 - ink) (1 - black): colour profiles are not looked at.
+// - YCbCr, Lab and logarithmic colours become RGB8 through libtiff's RGBA interface.
 #include "volume/tiff.h"
 
 #include "base/error.h"
 
 static bool needs_rendering(const struct pel_tiff_page *page) {
     switch (page->photometric) {
-    case PHOTOMETRIC_YCBCR:
     case PHOTOMETRIC_SEPARATED:
+        return page->samples < 4;
+    case PHOTOMETRIC_YCBCR:
     case PHOTOMETRIC_CIELAB:
     case PHOTOMETRIC_ICCLAB:
     case PHOTOMETRIC_ITULAB:
@@ -82,6 +84,11 @@ bool pel_tiff_shape_of(struct pel_tiff_shape *shape, int *channel_count,
         return false;
     if (page->photometric == PHOTOMETRIC_PALETTE && !shape->indices) {
         shape_colour(shape, page->palette == PEL_PALETTE_GREY ? 1 : 3);
+        return true;
+    }
+    if (page->photometric == PHOTOMETRIC_SEPARATED && !split) {
+        shape->cmyk = true;
+        shape_colour(shape, 3);
         return true;
     }
     bool colour =

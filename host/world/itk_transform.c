@@ -1,4 +1,4 @@
-// itk_transform.c - ITK's text files of transforms.
+// itk_transform.c - ITK's files of transforms, as text and as ANTs writes them.
 //
 //     #Insight Transform File V1.0
 //     #Transform 0
@@ -9,9 +9,14 @@
 // Each kind gives a 3x3 matrix M, a translation t and a centre c: y = M (x - c) + c + t. A
 // CompositeTransform has no parameters; those that follow are its parts, of which the last is
 // applied first.
+//
+// The binary kind is MATLAB 4: for each variable five 32-bit numbers (type, rows, columns, whether
+// imaginary, bytes of the name), the name, and the values. One variable named after the transform
+// holds the parameters, the next, "fixed", the fixed ones. Only little-endian files are about.
 #include "world/itk_transform.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,46 +50,18 @@ enum { kind_count = sizeof kinds / sizeof *kinds };
 
 // One transform of a file.
 struct stage {
-    int kind, line; // index into kinds; -1 before the first
+    int kind; // index into kinds
     double parameters[number_max], fixed[number_max];
     int parameter_count, fixed_count;
 };
 
-// Finds the kind in "Euler3DTransform_double_3_3".
-static bool parse_kind(struct stage *stage, const char *text, int length, int line) {
-    *stage = (struct stage){.kind = -1, .line = line};
-    int name_length = (int)strcspn(text, "_ \t\r\n");
-    for (int i = 0; i < kind_count; i++)
-        if ((int)strlen(kinds[i].name) == name_length &&
-            strncmp(text, kinds[i].name, (size_t)name_length) == 0)
-            stage->kind = i;
-    if (stage->kind < 0)
-        return pel_fail(PEL_ERROR_UNSUPPORTED, "line %d: '%.*s' is not a rigid transform", line,
-                        length > 64 ? 64 : length, text);
-    if (length > name_length && (length < 4 || strncmp(text + length - 4, "_3_3", 4) != 0))
-        return pel_fail(PEL_ERROR_UNSUPPORTED, "line %d: '%.*s' is not for three dimensions", line,
-                        length > 64 ? 64 : length, text);
-    return true;
-}
-
-static bool parse_numbers(double numbers[number_max], int *count, const char *text, const char *end,
-                          int line) {
-    *count = 0;
-    for (;;) {
-        text += strspn(text, " \t\r");
-        if (text >= end)
-            return true;
-        if (*count == number_max)
-            return pel_fail(PEL_ERROR_FORMAT, "line %d: more than %d numbers", line, number_max);
-        char *after;
-        numbers[*count] = strtod(text, &after);
-        if (after == text || after > end || !isfinite(numbers[*count]))
-            return pel_fail(PEL_ERROR_FORMAT, "line %d: '%.*s' is not a finite number", line,
-                            end - text > 16 ? 16 : (int)(end - text), text);
-        text = after;
-        ++*count;
-    }
-}
+// A file half read: `product` of the finished stages, and the one being read.
+struct reading {
+    struct pel_matrix product;
+    struct stage stage;
+    int stage_count;
+    bool composite;
+};
 
 static struct pel_matrix rotation_about(int axis, double angle) {
     struct pel_matrix matrix = pel_matrix_identity();
@@ -103,11 +80,10 @@ static struct pel_matrix euler_matrix(const double angles[3], bool zyx) {
 }
 
 // A versor's fourth component is what makes its length one.
-static bool versor_matrix(struct pel_matrix *matrix, const double xyz[3], int line) {
+static bool versor_matrix(struct pel_matrix *matrix, const double xyz[3]) {
     double rest = 1 - pel_dot(xyz, xyz);
     if (rest < -1e-9)
-        return pel_fail(PEL_ERROR_FORMAT, "line %d: a versor of length %g exceeds 1", line,
-                        pel_length(xyz));
+        return pel_fail(PEL_ERROR_FORMAT, "a versor of length %g exceeds 1", pel_length(xyz));
     *matrix = pel_matrix_from_quaternion((double[]){xyz[0], xyz[1], xyz[2], sqrt(fmax(rest, 0))},
                                          (double[]){0, 0, 0});
     return true;
@@ -118,8 +94,8 @@ static bool stage_matrix(struct pel_matrix *matrix, const struct stage *stage) {
     const double *p = stage->parameters;
     int count = kinds[stage->kind].parameter_count;
     if (stage->parameter_count != count)
-        return pel_fail(PEL_ERROR_FORMAT, "line %d: %s has %d parameters, not %d", stage->line,
-                        kinds[stage->kind].name, stage->parameter_count, count);
+        return pel_fail(PEL_ERROR_FORMAT, "%s has %d parameters, not %d", kinds[stage->kind].name,
+                        stage->parameter_count, count);
     const double *translation = p + count - 3, *centre = stage->fixed;
     static const double none[3] = {0, 0, 0};
     *matrix = pel_matrix_identity();
@@ -136,18 +112,17 @@ static bool stage_matrix(struct pel_matrix *matrix, const struct stage *stage) {
         break;
     case VERSOR:
         translation = none;
-        if (!versor_matrix(matrix, p, stage->line))
+        if (!versor_matrix(matrix, p))
             return false;
         break;
     case VERSOR_RIGID:
-        if (!versor_matrix(matrix, p, stage->line))
+        if (!versor_matrix(matrix, p))
             return false;
         break;
     case QUATERNION: {
         double length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
         if (!(fabs(length - 1) <= 1e-4))
-            return pel_fail(PEL_ERROR_FORMAT, "line %d: a quaternion of length %g, not 1",
-                            stage->line, length);
+            return pel_fail(PEL_ERROR_FORMAT, "a quaternion of length %g, not 1", length);
         *matrix = pel_matrix_from_quaternion(p, none);
         break;
     }
@@ -165,61 +140,183 @@ static bool stage_matrix(struct pel_matrix *matrix, const struct stage *stage) {
     return true;
 }
 
-bool pel_itk_transform_recognise(const char *text) {
-    return strncmp(text, "#Insight Transform File", 23) == 0;
+// Joins the stage that has been read to those before it.
+static bool end_stage(struct reading *reading) {
+    struct pel_matrix matrix;
+    if (reading->stage_count == 0)
+        return true;
+    if (!stage_matrix(&matrix, &reading->stage))
+        return false;
+    reading->product = pel_matrix_multiply(&reading->product, &matrix);
+    return true;
 }
 
-bool pel_itk_transform_parse(struct pel_matrix *moving_from_fixed, const char *text) {
-    struct pel_matrix product = pel_matrix_identity(), matrix;
-    struct stage stage = {.kind = -1};
-    int stages = 0;
-    bool composite = false;
+// Begins the stage named as in "Euler3DTransform_double_3_3".
+static bool begin_stage(struct reading *reading, const char *name, int length) {
+    if (!end_stage(reading))
+        return false;
+    int kind = 0, shown = length > 64 ? 64 : length;
+    for (; kind < kind_count; kind++) {
+        int known = (int)strlen(kinds[kind].name);
+        if (known <= length && strncmp(name, kinds[kind].name, (size_t)known) == 0 &&
+            (known == length || name[known] == '_'))
+            break;
+    }
+    if (kind == kind_count)
+        return pel_fail(PEL_ERROR_UNSUPPORTED, "'%.*s' is not a rigid transform", shown, name);
+    if (memchr(name, '_', (size_t)length) && strncmp(name + length - 4, "_3_3", 4) != 0)
+        return pel_fail(PEL_ERROR_UNSUPPORTED, "'%.*s' is not for three dimensions", shown, name);
+    if (reading->stage_count > 0 && !reading->composite)
+        return pel_fail(PEL_ERROR_FORMAT, "a second transform, and no composite");
+    if (reading->stage_count++ == 0)
+        reading->composite = kinds[kind].kind == COMPOSITE;
+    reading->stage = (struct stage){.kind = kind};
+    return true;
+}
+
+static bool end_reading(struct reading *reading, struct pel_matrix *matrix) {
+    if (reading->stage_count == (reading->composite ? 1 : 0))
+        return pel_fail(PEL_ERROR_FORMAT, "no transform in it");
+    if (!end_stage(reading))
+        return false;
+    *matrix = reading->product;
+    return true;
+}
+
+static bool parse_numbers(double numbers[number_max], int *count, const char *text,
+                          const char *end) {
+    *count = 0;
+    for (;;) {
+        text += strspn(text, " \t\r");
+        if (text >= end)
+            return true;
+        if (*count == number_max)
+            return pel_fail(PEL_ERROR_FORMAT, "more than %d numbers", number_max);
+        char *after;
+        numbers[*count] = strtod(text, &after);
+        if (after == text || after > end || !isfinite(numbers[*count]))
+            return pel_fail(PEL_ERROR_FORMAT, "'%.*s' is not a finite number",
+                            end - text > 16 ? 16 : (int)(end - text), text);
+        text = after;
+        ++*count;
+    }
+}
+
+// One line without its white space at both ends.
+static bool parse_line(struct reading *reading, const char *line, int length) {
+    const char *end = line + length, *colon = memchr(line, ':', (size_t)length);
+    size_t key = colon ? (size_t)(colon - line) : 0;
+    const char *value = colon ? colon + 1 : line;
+    while (value < end && strchr(" \t", *value))
+        value++;
+    struct stage *stage = &reading->stage;
+    if (key == 9 && strncmp(line, "Transform", key) == 0)
+        return begin_stage(reading, value, (int)(end - value));
+    if (reading->stage_count > 0 && key == 10 && strncmp(line, "Parameters", key) == 0)
+        return parse_numbers(stage->parameters, &stage->parameter_count, value, end);
+    if (reading->stage_count > 0 && key == 15 && strncmp(line, "FixedParameters", key) == 0)
+        return parse_numbers(stage->fixed, &stage->fixed_count, value, end);
+    return pel_fail(PEL_ERROR_FORMAT, "unexpected '%.*s'", length > 32 ? 32 : length, line);
+}
+
+static bool parse_text(struct reading *reading, const char *text) {
     for (int line = 1; *text; line++) {
         const char *start = text + strspn(text, " \t\r");
         const char *end = start + strcspn(start, "\n");
         text = *end ? end + 1 : end;
-        int length = (int)(end - start);
-        while (length > 0 && strchr(" \t\r", start[length - 1]))
-            length--;
-        if (length == 0 || *start == '#')
-            continue;
-
-        const char *colon = memchr(start, ':', (size_t)length);
-        int key = colon ? (int)(colon - start) : 0;
-        const char *value = colon ? colon + 1 : start;
-        while (value < start + length && strchr(" \t", *value))
-            value++;
-        bool good;
-        if (key == 9 && strncmp(start, "Transform", 9) == 0) {
-            if (stage.kind >= 0 && !stage_matrix(&matrix, &stage))
-                return false;
-            if (stage.kind >= 0)
-                product = pel_matrix_multiply(&product, &matrix);
-            good = parse_kind(&stage, value, (int)(start + length - value), line);
-            bool first = stages++ == 0;
-            if (good && first)
-                composite = kinds[stage.kind].kind == COMPOSITE;
-            else if (good && !composite)
-                good = pel_fail(PEL_ERROR_FORMAT, "line %d: a second transform, and no composite",
-                                line);
-        } else if (stage.kind >= 0 && key == 10 && strncmp(start, "Parameters", 10) == 0) {
-            good = parse_numbers(stage.parameters, &stage.parameter_count, value, start + length,
-                                 line);
-        } else if (stage.kind >= 0 && key == 15 && strncmp(start, "FixedParameters", 15) == 0) {
-            good = parse_numbers(stage.fixed, &stage.fixed_count, value, start + length, line);
-        } else {
-            good = pel_fail(PEL_ERROR_FORMAT, "line %d: unexpected '%.*s'", line,
-                            length > 32 ? 32 : length, start);
-        }
-        if (!good)
-            return false;
+        while (end > start && strchr(" \t\r", end[-1]))
+            end--;
+        if (start < end && *start != '#' && !parse_line(reading, start, (int)(end - start)))
+            return pel_fail_in("line %d", line);
     }
-    if (stage.kind < 0 || (composite && stages == 1))
-        return pel_fail(PEL_ERROR_FORMAT, "no transform in it");
-    if (!stage_matrix(&matrix, &stage))
-        return false;
-    *moving_from_fixed = pel_matrix_multiply(&product, &matrix);
     return true;
+}
+
+// The head of a MATLAB 4 variable, and what follows it.
+struct variable {
+    int32_t type, rows, columns, imaginary, name_bytes;
+};
+
+enum { SINGLE = 10, ROW_WISE = 100, name_limit = 128 };
+
+static bool variable_is_sound(const struct variable *variable) {
+    return (variable->type == 0 || variable->type == SINGLE || variable->type == ROW_WISE ||
+            variable->type == ROW_WISE + SINGLE) &&
+           variable->rows >= 0 && variable->columns >= 0 && variable->columns <= 1 &&
+           variable->imaginary == 0 && variable->name_bytes > 1 &&
+           variable->name_bytes <= name_limit;
+}
+
+static bool parse_variable(struct reading *reading, const char **data, size_t *bytes) {
+    struct variable variable;
+    if (*bytes < sizeof variable)
+        return pel_fail(PEL_ERROR_FORMAT, "the file ends early");
+    memcpy(&variable, *data, sizeof variable);
+    if (!variable_is_sound(&variable))
+        return pel_fail(PEL_ERROR_FORMAT, "not a vector of numbers");
+    int count = variable.rows * variable.columns;
+    size_t number_bytes = variable.type % ROW_WISE == SINGLE ? sizeof(float) : sizeof(double);
+    size_t name_bytes = (size_t)variable.name_bytes;
+    const char *name = *data + sizeof variable, *numbers = name + name_bytes;
+    if (*bytes - sizeof variable < name_bytes ||
+        (*bytes - sizeof variable - name_bytes) / number_bytes < (size_t)count)
+        return pel_fail(PEL_ERROR_FORMAT, "the file ends early");
+    *data = numbers + (size_t)count * number_bytes;
+    *bytes -= sizeof variable + name_bytes + (size_t)count * number_bytes;
+
+    bool fixed = reading->stage_count > 0 && name_bytes == 6 && memcmp(name, "fixed", 6) == 0;
+    if (!fixed && !begin_stage(reading, name, (int)strnlen(name, name_bytes)))
+        return false;
+    // What a composite itself holds repeats its parts.
+    if (kinds[reading->stage.kind].kind == COMPOSITE)
+        return true;
+    if (count > number_max)
+        return pel_fail(PEL_ERROR_FORMAT, "%d numbers, more than %d", count, number_max);
+    double *out = fixed ? reading->stage.fixed : reading->stage.parameters;
+    *(fixed ? &reading->stage.fixed_count : &reading->stage.parameter_count) = count;
+    for (int i = 0; i < count; i++) {
+        double number;
+        if (number_bytes == sizeof(float)) {
+            float single;
+            memcpy(&single, numbers + (size_t)i * sizeof single, sizeof single);
+            number = (double)single;
+        } else {
+            memcpy(&number, numbers + (size_t)i * sizeof number, sizeof number);
+        }
+        if (!isfinite(number))
+            return pel_fail(PEL_ERROR_FORMAT, "a number is not finite");
+        out[i] = number;
+    }
+    return true;
+}
+
+static bool parse_binary(struct reading *reading, const char *data, size_t bytes) {
+    for (int i = 1; bytes > 0; i++)
+        if (!parse_variable(reading, &data, &bytes))
+            return pel_fail_in("variable %d", i);
+    return true;
+}
+
+static bool is_text(const char *data, size_t bytes) {
+    static const char head[] = "#Insight Transform File";
+    return bytes >= sizeof head && memcmp(data, head, sizeof head - 1) == 0;
+}
+
+bool pel_itk_transform_recognise(const char *data, size_t bytes) {
+    if (is_text(data, bytes))
+        return true;
+    struct variable variable;
+    if (bytes < sizeof variable)
+        return false;
+    memcpy(&variable, data, sizeof variable);
+    return variable_is_sound(&variable);
+}
+
+bool pel_itk_transform_parse(struct pel_matrix *moving_from_fixed, const char *data, size_t bytes) {
+    struct reading reading = {.product = pel_matrix_identity()};
+    bool good =
+        is_text(data, bytes) ? parse_text(&reading, data) : parse_binary(&reading, data, bytes);
+    return good && end_reading(&reading, moving_from_fixed);
 }
 
 // The angle about x is taken from both its sine and cosine, and the one about z from what remains

@@ -28,8 +28,9 @@ static void pack_row(enum pel_voxel_type type, const void *in, size_t count, voi
         for (size_t i = 0; i < count; i++) {
             const uint8_t *rgb = bytes + 3 * i;
             memcpy(out_bytes + 4 * i, rgb, 3);
+            // The luminance in ten thousandths, rounded halves up.
             out_bytes[4 * i + 3] =
-                (uint8_t)(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2] + 0.5);
+                (uint8_t)((2126 * rgb[0] + 7152 * rgb[1] + 722 * rgb[2] + 5000) / 10000);
         }
         break;
     }

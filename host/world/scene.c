@@ -6,13 +6,14 @@
 
 #include "base/math.h"
 #include "base/memory.h"
+#include "camera/camera.h"
 
 struct pel_scene *pel_scene_create(void) {
     struct pel_scene *scene = pel_allocate(1, sizeof *scene);
     if (!scene)
         return NULL;
     // The camera is fitted to the volumes once they are known.
-    scene->camera = (struct pel_camera){.up = {0, 0, 1}, .fov_deg = 30};
+    scene->camera = (struct pel_camera){.up = {0, 0, 1}, .fov_deg = PEL_CAMERA_FOV_DEFAULT_DEG};
     scene->background[3] = 1;
     scene->render = (struct pel_render_settings){.width = 1024,
                                                  .height = 768,

@@ -5,8 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/error.h"
-#include "base/math.h"
+#include "camera/camera.h"
 
 static const char *const camera_keys[] = {"comment", "view",  "fit", "eye",
                                           "target",  "up",    "fov", "orthographic",
@@ -76,25 +75,18 @@ static void find_bounds(const struct pel_scene *scene, int fit, struct pel_bound
         pel_instance_bounds(scene, 0, bounds);
 }
 
-// A camera that looks nowhere, or whose up is where it looks, has no picture.
-static bool check_frame(const struct pel_camera_plan *plan, struct pel_camera *camera) {
-    double forward[3], right[3];
-    for (int i = 0; i < 3; i++)
-        forward[i] = camera->target[i] - camera->eye[i];
-    if (!pel_normalize(forward))
-        return pel_node_fail(&plan->node, "eye and target are the same point");
-    double up[3] = {camera->up[0], camera->up[1], camera->up[2]};
-    if (!pel_normalize(up))
-        return pel_node_fail(&plan->node, "up has no direction");
-    pel_cross(right, forward, up);
-    if (pel_length(right) > 1e-6)
+// Makes sure that the camera has axes. An up vector nobody chose gives way to anterior when the
+// camera looks along it.
+static bool check_axes(const struct pel_camera_plan *plan, struct pel_camera *camera) {
+    double forward[3], right[3], up[3];
+    if (pel_camera_basis(camera, forward, right, up))
         return true;
-    if (!isnan(plan->given.up[0]))
-        return pel_node_fail(&plan->node, "up is parallel to the line of sight");
-    // Nobody chose this up: looking along it, anterior is as good.
-    double second[2][3] = {{0, 1, 0}, {0, 0, 1}};
-    memcpy(camera->up, second[fabs(forward[1]) > 0.9], sizeof camera->up);
-    return true;
+    if (isnan(plan->given.up[0])) {
+        memcpy(camera->up, (double[]){0, 1, 0}, sizeof camera->up);
+        if (pel_camera_basis(camera, forward, right, up))
+            return true;
+    }
+    return pel_node_fail(&plan->node, "%s", pel_error_message());
 }
 
 bool pel_scene_place_camera(struct pel_scene *scene, const struct pel_camera_plan *plan) {
@@ -118,5 +110,5 @@ bool pel_scene_place_camera(struct pel_scene *scene, const struct pel_camera_pla
     replace(&camera->fov_deg, &given->fov_deg, 1);
     replace(&camera->height_mm, &given->height_mm, 1);
     replace(camera->shift, given->shift, 2);
-    return check_frame(plan, camera);
+    return check_axes(plan, camera);
 }

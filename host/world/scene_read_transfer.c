@@ -12,11 +12,11 @@ static bool read_named(struct pel_transfer **transfer, const struct pel_scene_no
     const char *name = json_string_value(node->value);
     if (!strpbrk(name, "./")) {
         *transfer = pel_transfer_preset(name);
-    } else {
-        char *path = pel_node_path(node, name);
-        *transfer = path ? pel_transfer_load(path) : NULL;
-        free(path);
+        return *transfer || pel_node_fail(node, "%s", pel_error_message());
     }
+    char *path = pel_node_path(node, name);
+    *transfer = path ? pel_transfer_load(path) : NULL;
+    free(path);
     return *transfer || pel_node_fail_in(node);
 }
 

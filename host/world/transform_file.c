@@ -163,8 +163,8 @@ static bool exchange_itk(struct pel_matrix *matrix) {
 static bool parse(struct pel_matrix *matrix, const char *path, const char *text, size_t bytes,
                   const struct pel_volume *moving, const struct pel_volume *fixed) {
     *matrix = pel_matrix_identity();
-    if (pel_itk_transform_recognise(text)) {
-        if (!pel_itk_transform_parse(matrix, text))
+    if (pel_itk_transform_recognise(text, bytes)) {
+        if (!pel_itk_transform_parse(matrix, text, bytes))
             return false;
         // Singular matrices have no inverse; the sentence about rigidity says more.
         struct pel_matrix rigid = *matrix;

@@ -19,19 +19,6 @@ struct change {
     double extinction, colour;
 };
 
-// Voxel values are counted in parts of this range; a float type's has none.
-static double range_of_values(const struct pel_volume *volume) {
-    switch (volume->type) {
-    case PEL_VOXEL_F32:
-        return 0;
-    case PEL_VOXEL_U16:
-    case PEL_VOXEL_I16:
-        return 65535 * fabs(volume->slope);
-    default:
-        return 255 * fabs(volume->slope);
-    }
-}
-
 static void widen(struct change *change, const struct reference_medium *a,
                   const struct reference_medium *b) {
     change->extinction = fmax(change->extinction, fabs(a->extinction - b->extinction));
@@ -99,13 +86,14 @@ static void add_body(double *extinction, double *wrong, const struct reference *
     struct change change = {0};
     if (reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel)) {
         medium = reference_classify(body->instance, &body->table, &sample);
-        double reach = (errors->weight + reach_voxel) * sample.spread +
-                       errors->value * range_of_values(body->volume) +
-                       errors->rounding * fabs(sample.value);
+        double reach =
+            (errors->weight + reach_voxel) * sample.spread +
+            (body->volume->type == PEL_VOXEL_F32 ? 0 : errors->value * fabs(body->volume->slope)) +
+            errors->rounding * fabs(sample.value);
         widen_by_value(&change, body, &sample, reach);
         // A volume's own colours are interpolated too, each over its whole range at most.
         if (sample.coloured)
-            change.colour = fmax(change.colour, 3 * errors->weight + errors->value);
+            change.colour = fmax(change.colour, 3 * errors->weight + errors->value / 255);
     }
     widen_by_place(&change, body, &medium, p_voxel, reach_voxel);
 

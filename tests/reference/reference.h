@@ -28,7 +28,7 @@ void reference_cast_back_to_front(const struct reference *reference, double x_px
 struct reference_errors {
     double rounding; // of positions and values, relative: about 1e-6 for floats
     double weight;   // of each interpolation weight: 2^-8 for texture hardware
-    double value;    // of a fetched value, in parts of the voxel type's range
+    double value;    // of an interpolated value, in steps of an integer voxel type
 };
 
 // How far the colour of that ray may then be off, per channel, to first order. A sample so close to

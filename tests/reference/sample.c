@@ -46,25 +46,21 @@ static void read_voxel(double channels[CHANNELS], const struct pel_volume *volum
     }
 }
 
+static int clamp(double index, int dims) {
+    return (int)fmin(fmax(index, 0), dims - 1);
+}
+
 static void read_nearest(double channels[CHANNELS], const struct pel_volume *volume,
                          const double p_voxel[3]) {
     int voxel[3];
     for (int c = 0; c < 3; c++)
-        voxel[c] = (int)fmin(fmax(floor(p_voxel[c] + 0.5), 0), volume->dims[c] - 1);
+        voxel[c] = clamp(floor(p_voxel[c] + 0.5), volume->dims[c]);
     read_voxel(channels, volume, voxel);
 }
 
 // Corner number n lies at the upper end of axis c if bit c of n is set.
 static void read_linear(double channels[CHANNELS], double *spread, const struct pel_volume *volume,
                         const double p_voxel[3]) {
-    int cell[3];
-    double weight[3];
-    for (int c = 0; c < 3; c++) {
-        double p = fmin(fmax(p_voxel[c], 0), volume->dims[c] - 1);
-        cell[c] = volume->dims[c] == 1 ? 0 : (int)fmin(floor(p), volume->dims[c] - 2);
-        weight[c] = p - cell[c];
-    }
-
     double corners[8][CHANNELS];
     for (int c = 0; c < CHANNELS; c++)
         channels[c] = 0;
@@ -73,8 +69,9 @@ static void read_linear(double channels[CHANNELS], double *spread, const struct 
         double product = 1;
         for (int c = 0; c < 3; c++) {
             bool upper = n >> c & 1;
-            voxel[c] = upper && volume->dims[c] > 1 ? cell[c] + 1 : cell[c];
-            product *= upper ? weight[c] : 1 - weight[c];
+            double lower = floor(p_voxel[c]), weight = p_voxel[c] - lower;
+            voxel[c] = clamp(upper ? lower + 1 : lower, volume->dims[c]);
+            product *= upper ? weight : 1 - weight;
         }
         // An absent corner (NaN) makes the sum absent, also where its weight is zero.
         read_voxel(corners[n], volume, voxel);

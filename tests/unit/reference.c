@@ -120,6 +120,10 @@ static void test_absent_corner(void **state) {
     assert_true(reference_sample_volume(&sample, volume, PEL_FILTER_LINEAR, at_09));
     assert_true(reference_sample_volume(&sample, volume, PEL_FILTER_NEAREST, at_1));
     CHECK_NEAR(sample.value, 5, 0);
+    // Beyond the last voxel's centre it is the only one.
+    const double at_31[3] = {3.1, -0.5, 0.5};
+    assert_true(reference_sample_volume(&sample, volume, PEL_FILTER_LINEAR, at_31));
+    CHECK_NEAR(sample.value, 5, 1e-12);
     pel_volume_destroy(volume);
 }
 

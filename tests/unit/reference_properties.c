@@ -330,7 +330,7 @@ static void test_bound(void **state) {
     struct pel_scene *scene = one_volume(volume, byte_transfer(0));
     struct pel_image *before = reference_render(scene);
     struct reference *reference = reference_create(scene);
-    struct reference_errors errors = {.rounding = 1e-9, .value = 1 / 255.0};
+    struct reference_errors errors = {.rounding = 1e-9, .value = 1};
     double bounds[18][24], tightest = INFINITY;
     for (int y = 0; y < 18; y++)
         for (int x = 0; x < 24; x++)

@@ -4,13 +4,17 @@
 
 #include "base/math.h"
 
-static const char *write_file(const char *leaf, const char *text) {
+static const char *write_bytes(const char *leaf, const void *bytes, size_t count) {
     const char *path = test_temporary_path(leaf);
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
-    fputs(text, stream);
+    assert_int_equal(fwrite(bytes, 1, count, stream), count);
     fclose(stream);
     return path;
+}
+
+static const char *write_file(const char *leaf, const char *text) {
+    return write_bytes(leaf, text, strlen(text));
 }
 
 static void check_map(const struct pel_matrix *matrix, const double from[3], const double to[3]) {
@@ -115,7 +119,7 @@ static void test_itk_refusals(void **state) {
     refuse("a.tfm", ITK "Transform:\n", PEL_ERROR_UNSUPPORTED,
            "line 2: '' is not a rigid transform");
     refuse("a.tfm", ITK "Transform: Euler3DTransform_double_3_3\nParameters: 1 2 3\n", format,
-           "line 2: Euler3DTransform has 3 parameters, not 6");
+           "Euler3DTransform has 3 parameters, not 6");
     refuse("a.tfm", ITK "Transform: Euler3DTransform_double_3_3\nParameters: 0 0 x 0\n", format,
            "line 3: 'x 0' is not a finite number");
     refuse("a.tfm", ITK "Transform: Euler3DTransform_double_3_3\nParameters: 0 nan 0 0 0 0\n",
@@ -128,13 +132,45 @@ static void test_itk_refusals(void **state) {
                "Transform: IdentityTransform_double_3_3\n",
            format, "line 3: a second transform, and no composite");
     refuse("a.tfm", ITK "Transform: VersorRigid3DTransform_double_3_3\nParameters: 1 1 0 0 0 0\n",
-           format, "line 2: a versor of length 1.41421 exceeds 1");
+           format, "a versor of length 1.41421 exceeds 1");
     refuse("a.tfm",
            ITK "Transform: AffineTransform_double_3_3\nParameters: 0 0 0 0 0 0 0 0 0 0 0 0\n",
            format, "not a rotation and translation: it scales or shears by 1");
     refuse("a.tfm",
            ITK "Transform: AffineTransform_double_3_3\nParameters: 1 0 0 0 1 0 0 0 -1 0 0 0\n",
            format, "not a rotation and translation: it mirrors");
+}
+
+// Appends a MATLAB 4 variable.
+static size_t add_variable(char *out, const char *name, const double *numbers, int count) {
+    int32_t head[5] = {0, count, 1, 0, (int32_t)strlen(name) + 1};
+    memcpy(out, head, sizeof head);
+    memcpy(out + sizeof head, name, (size_t)head[4]);
+    size_t bytes = sizeof head + (size_t)head[4];
+    memcpy(out + bytes, numbers, (size_t)count * sizeof *numbers);
+    return bytes + (size_t)count * sizeof *numbers;
+}
+
+// The same turn as above, as antsRegistration writes it.
+static void test_itk_binary(void **state) {
+    (void)state;
+    const double parameters[12] = {0, -1, 0, 1, 0, 0, 0, 0, 1, 1, 2, 3};
+    const double centre[3] = {10, 20, 30};
+    char data[512];
+    size_t bytes = add_variable(data, "AffineTransform_double_3_3", parameters, 12);
+    bytes += add_variable(data + bytes, "fixed", centre, 3);
+    struct pel_matrix matrix;
+    const char *path = write_bytes("0GenericAffine.mat", data, bytes);
+    if (!pel_transform_load(&matrix, path, NULL, NULL))
+        fail_msg("%s", pel_error_message());
+    check_map(&matrix, (double[]){-11, -23, 33}, (double[]){-11, -20, 30});
+    // Every truncation is told, but the one that leaves out the centre altogether.
+    size_t whole = bytes - (20 + 6 + 24);
+    for (size_t cut = 0; cut < bytes; cut++) {
+        path = write_bytes("cut.mat", data, cut);
+        assert_int_equal(pel_transform_load(&matrix, path, NULL, NULL), cut == whole);
+    }
+    assert_string_equal(strstr(pel_error_message(), "variable"), "variable 2: the file ends early");
 }
 
 static void test_plain(void **state) {
@@ -280,11 +316,17 @@ static void test_save_refuses(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_itk_kinds),     cmocka_unit_test(test_itk_order_of_angles),
-        cmocka_unit_test(test_itk_composite), cmocka_unit_test(test_itk_refusals),
-        cmocka_unit_test(test_plain),         cmocka_unit_test(test_nearly_rigid_is_mended),
-        cmocka_unit_test(test_fsl),           cmocka_unit_test(test_fsl_needs_volumes),
-        cmocka_unit_test(test_round_trips),   cmocka_unit_test(test_save_refuses),
+        cmocka_unit_test(test_itk_kinds),
+        cmocka_unit_test(test_itk_order_of_angles),
+        cmocka_unit_test(test_itk_composite),
+        cmocka_unit_test(test_itk_refusals),
+        cmocka_unit_test(test_itk_binary),
+        cmocka_unit_test(test_plain),
+        cmocka_unit_test(test_nearly_rigid_is_mended),
+        cmocka_unit_test(test_fsl),
+        cmocka_unit_test(test_fsl_needs_volumes),
+        cmocka_unit_test(test_round_trips),
+        cmocka_unit_test(test_save_refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,46 @@
+// describe.cl - the device's own idea of the structs it shares with the host, for the test that compares the two.
+#include "shared/world.h"
+
+#define OFFSET(type, member) ((uint)((__private char *)&((type *)&space)->member - (__private char *)&space))
+
+// Writes the sizes and offsets in the order in which tests/kernel/layout.c lists them.
+__kernel void describe(__global uint *out) {
+    struct world space;
+    *out++ = sizeof(struct camera);
+    *out++ = OFFSET(struct camera, eye);
+    *out++ = OFFSET(struct camera, eye_right);
+    *out++ = OFFSET(struct camera, eye_up);
+    *out++ = OFFSET(struct camera, forward);
+    *out++ = OFFSET(struct camera, right);
+    *out++ = OFFSET(struct camera, up);
+    *out++ = sizeof(struct part);
+    *out++ = OFFSET(struct part, voxel_from_world);
+    *out++ = OFFSET(struct part, box_low);
+    *out++ = OFFSET(struct part, box_high);
+    *out++ = OFFSET(struct part, memory_from_voxel);
+    *out++ = OFFSET(struct part, table_scale);
+    *out++ = OFFSET(struct part, table_bias);
+    *out++ = OFFSET(struct part, table_last);
+    *out++ = OFFSET(struct part, table);
+    *out++ = OFFSET(struct part, offset);
+    *out++ = OFFSET(struct part, row);
+    *out++ = OFFSET(struct part, slice);
+    *out++ = OFFSET(struct part, buffer);
+    *out++ = OFFSET(struct part, voxels);
+    *out++ = OFFSET(struct part, filter);
+    *out++ = OFFSET(struct part, table_nearest);
+    *out++ = sizeof(struct world);
+    *out++ = OFFSET(struct world, camera);
+    *out++ = OFFSET(struct world, bounds_low);
+    *out++ = OFFSET(struct world, bounds_high);
+    *out++ = OFFSET(struct world, background);
+    *out++ = OFFSET(struct world, step_mm);
+    *out++ = OFFSET(struct world, phase);
+    *out++ = OFFSET(struct world, termination);
+    *out++ = OFFSET(struct world, origin_bounds);
+    *out++ = OFFSET(struct world, width);
+    *out++ = OFFSET(struct world, height);
+    *out++ = OFFSET(struct world, tiles_x);
+    *out++ = OFFSET(struct world, part_count);
+    *out++ = OFFSET(struct world, parts);
+}

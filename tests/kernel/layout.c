@@ -1,0 +1,84 @@
+// layout.c - the structs that host and kernels share have the same sizes and offsets on the device.
+#include "device/device.h"
+#include "shared/world.h"
+#include "support/test.h"
+
+#define AT(type, member)                                                                           \
+    { #type "." #member, offsetof(struct type, member) }
+#define SIZE(type)                                                                                 \
+    { "sizeof " #type, sizeof(struct type) }
+
+// In the order of kernels/describe.cl.
+static const struct {
+    const char *name;
+    size_t value;
+} host[] = {
+    SIZE(camera),
+    AT(camera, eye),
+    AT(camera, eye_right),
+    AT(camera, eye_up),
+    AT(camera, forward),
+    AT(camera, right),
+    AT(camera, up),
+    SIZE(part),
+    AT(part, voxel_from_world),
+    AT(part, box_low),
+    AT(part, box_high),
+    AT(part, memory_from_voxel),
+    AT(part, table_scale),
+    AT(part, table_bias),
+    AT(part, table_last),
+    AT(part, table),
+    AT(part, offset),
+    AT(part, row),
+    AT(part, slice),
+    AT(part, buffer),
+    AT(part, voxels),
+    AT(part, filter),
+    AT(part, table_nearest),
+    SIZE(world),
+    AT(world, camera),
+    AT(world, bounds_low),
+    AT(world, bounds_high),
+    AT(world, background),
+    AT(world, step_mm),
+    AT(world, phase),
+    AT(world, termination),
+    AT(world, origin_bounds),
+    AT(world, width),
+    AT(world, height),
+    AT(world, tiles_x),
+    AT(world, part_count),
+    AT(world, parts),
+};
+
+enum { COUNT = sizeof host / sizeof *host };
+
+static void test_layout(void **state) {
+    (void)state;
+    struct pel_device *device = pel_device_open(NULL);
+    if (!device)
+        fail_msg("%s", pel_error_message());
+    struct pel_kernel *kernel =
+        pel_kernel_build(device, "describe.cl", "describe", "-cl-std=CL1.2");
+    if (!kernel)
+        fail_msg("%s", pel_error_message());
+    struct pel_buffer *buffer =
+        pel_buffer_create(device, COUNT * sizeof(uint32_t), "a description");
+    uint32_t values[COUNT] = {0};
+    assert_true(pel_kernel_set_buffer(kernel, 0, buffer));
+    assert_true(pel_kernel_launch(kernel, 1, 1));
+    assert_true(pel_buffer_read(buffer, 0, sizeof values, values));
+    for (int i = 0; i < COUNT; i++)
+        if (values[i] != host[i].value)
+            fail_msg("%s: %zu on the host, %u on the device", host[i].name, host[i].value,
+                     values[i]);
+    pel_buffer_destroy(buffer);
+    pel_kernel_destroy(kernel);
+    pel_device_close(device);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_layout)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

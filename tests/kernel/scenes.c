@@ -1,0 +1,51 @@
+// scenes.c - every scene of scenes/ is a picture test: rendered small, it has to agree with the
+// reference.
+#include <dirent.h>
+
+#include "support/judge.h"
+#include "support/scenes.h"
+#include "support/test.h"
+
+static int is_scene(const struct dirent *entry) {
+    const char *dot = strrchr(entry->d_name, '.');
+    return dot && strcmp(dot, ".json") == 0 && !strstr(entry->d_name, ".schema.");
+}
+
+// The scene at a size that the reference, and Oclgrind, render in a moment.
+static struct pel_scene *load_small(const char *name) {
+    char path[1024];
+    snprintf(path, sizeof path, "%s/scenes/%s", TEST_SOURCE, name);
+    const char *small[] = {"render.size=[16,12]", "render.step=2"};
+    const char *normal[] = {"render.size=[64,48]"};
+    struct pel_scene *scene =
+        scene_is_small() ? pel_scene_load(path, small, 2) : pel_scene_load(path, normal, 1);
+    if (!scene)
+        fail_msg("%s", pel_error_message());
+    return scene;
+}
+
+static void test_scenes(void **state) {
+    (void)state;
+    struct dirent **entries;
+    int count = scandir(TEST_SOURCE "/scenes", &entries, is_scene, alphasort);
+    assert_true(count > 0);
+    struct pel_renderer *buffers = judge_renderer(PEL_READER_BUFFER, 0);
+    struct pel_renderer *images = judge_renderer(PEL_READER_IMAGE, 1);
+    for (int i = 0; i < count; i++) {
+        struct pel_scene *scene = load_small(entries[i]->d_name);
+        struct pel_render_statistics statistics;
+        pel_image_destroy(judge_render(buffers, scene, &statistics, entries[i]->d_name));
+        assert_true(statistics.samples > 0);
+        pel_image_destroy(judge_render(images, scene, &statistics, entries[i]->d_name));
+        pel_scene_destroy(scene);
+        free(entries[i]);
+    }
+    free(entries);
+    pel_renderer_destroy(buffers);
+    pel_renderer_destroy(images);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_scenes)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

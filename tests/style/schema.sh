@@ -1,0 +1,141 @@
+#!/usr/bin/env bash
+# Compares three descriptions of scene files: the key tables of the parser, scenes/scene.schema.json and
+# scenes/README.md must have the same keys, every scene and every example must follow the schema, and the schema must
+# refuse what the parser refuses.
+set -eu
+cd "${SOURCE:-$(dirname "$0")/../..}"
+python3 -c 'import jsonschema' 2>/dev/null || { echo "skipped: python3-jsonschema is not installed"; exit 77; }
+exec python3 - <<'EOF'
+import copy, glob, json, re, sys, warnings
+warnings.simplefilter("ignore")
+import jsonschema
+
+failures = []
+def check(good, *what):
+    if not good:
+        failures.append(" ".join(str(w) for w in what))
+
+schema = json.load(open("scenes/scene.schema.json"))
+jsonschema.Draft202012Validator.check_schema(schema)
+validator = jsonschema.Draft202012Validator(schema)
+defs = schema["$defs"]
+
+# Keys of the parser: tables named X_keys; names it accepts: tables named X_names.
+tables = {}
+for path in sorted(glob.glob("host/world/scene_*.c") + glob.glob("host/transfer/*.c") +
+                   glob.glob("host/volume/generate.c")):
+    for name, body in re.findall(r"const char \*const (\w+)\[\] = \{([^}]*)\}", open(path).read()):
+        tables[path.split("/")[-1] + ":" + name] = re.findall(r'"([^"]+)"', body)
+
+# The object of the schema, or its alternatives, that goes with each table.
+matrix, quaternion, rotate, file = defs["transform"]["anyOf"]
+own_transfer = next(a for a in defs["transfer"]["anyOf"] if "properties" in a)
+rotation = rotate["properties"]["rotate"]
+transforms = {"properties": {**quaternion["properties"], **rotate["properties"], **file["properties"]}}
+pairs = {
+    "scene_file.c:scene_keys": (schema, "Scene"),
+    "scene_camera.c:camera_keys": (defs["camera"], "camera"),
+    "scene_read_volume.c:volume_keys": (defs["volume"], "volume"),
+    "scene_read_source.c:generate_keys": (defs["generate"], "generate"),
+    "scene_read_source.c:raw_keys": (defs["raw"], "raw"),
+    "scene_read_pose.c:transform_keys": (transforms, "transform"),
+    "scene_read_pose.c:quaternion_keys": (quaternion, None),
+    "scene_read_pose.c:rotate_keys": (rotate, None),
+    "scene_read_pose.c:file_keys": (file, None),
+    "scene_read_pose.c:rotation_keys": (rotation, "rotate"),
+    "transfer_file.c:known_keys": (own_transfer, "transfer"),
+    "scene_read_settings.c:render_keys": (defs["render"], "render"),
+    "scene_read_settings.c:output_keys": (defs["output"], "output"),
+}
+readme = open("scenes/README.md").read()
+sections = {s.split("\n")[0]: s for s in re.split(r"^## ", readme, flags=re.M)[1:]}
+for table in tables:
+    check(not table.endswith("_keys") or table in pairs, table, "is compared with nothing")
+for table, (described, section) in pairs.items():
+    if table not in tables:
+        check(False, table, "is not in the source")
+        continue
+    keys = set(tables[table])
+    check(keys == set(described["properties"]), table, "and the schema differ in",
+          keys ^ set(described["properties"]))
+    if section:
+        rows = re.findall(r"^\| `([^`]+)` \|(.*)\|(.*)\|(.*)\|(.*)\|$", sections[section], flags=re.M)
+        check(keys == {r[0] for r in rows}, table, "and README.md differ in", keys ^ {r[0] for r in rows})
+        for row in rows:
+            check(all(cell.strip() for cell in row), "README.md: a cell is empty in", row)
+
+# Every list of names is an enumeration of the schema.
+def enumerations(node):
+    if isinstance(node, dict):
+        if "enum" in node:
+            yield frozenset(map(str, node["enum"]))
+        for value in node.values():
+            yield from enumerations(value)
+    elif isinstance(node, list):
+        for value in node:
+            yield from enumerations(value)
+known = set(enumerations(schema))
+for table, names in tables.items():
+    if re.match(r"scene_.*_names$|preset.c:names$|generate.c:names$", table):
+        check(frozenset(names) in known, table, "is no enumeration of the schema:", names)
+
+# Scenes and examples follow the schema.
+scenes = {path: json.load(open(path)) for path in glob.glob("scenes/*.json") if not path.endswith("schema.json")}
+check(len(scenes) >= 7, "only", len(scenes), "scenes were found")
+for number, text in enumerate(re.findall(r"```json\n(.*?)```", readme, flags=re.S)):
+    scenes["README.md example %d" % number] = json.loads(text)
+for path, scene in scenes.items():
+    for error in validator.iter_errors(scene):
+        check(False, path, list(error.absolute_path), error.message[:200])
+
+# The examples in the tables do, too.
+def place(section, key, value):
+    volume = {"file": "a"}
+    holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"}, "raw": {"dims": [1, 1, 1]},
+              "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
+              "render": {}, "output": {}}[section]
+    if section == "transform":
+        holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
+                       "comment": {"file": "a"}}.get(key, {}))
+    holder[key] = value
+    if section == "volume" and key == "generate":
+        del volume["file"]
+    inner = {section: holder}
+    if section == "Scene":
+        return {"volumes": [volume], **holder}
+    if section in ("generate",):
+        volume = {"generate": holder}
+    elif section == "rotate":
+        volume["transform"] = {"rotate": holder}
+    elif section in ("raw", "transform", "transfer"):
+        volume[section] = holder
+    return {"volumes": [volume], **(inner if section in ("camera", "render", "output") else {})}
+for _, section in pairs.values():
+    if not section:
+        continue
+    for key, example in re.findall(r"^\| `([^`]+)` \|.*\| `([^`]+)` \|$", sections[section], flags=re.M):
+        scene = place(section, key, json.loads(example))
+        for error in validator.iter_errors(scene):
+            check(False, "README.md:", section, key, example, error.message[:100])
+
+# The schema is strict.
+good = {"volumes": [{"file": "a", "transfer": {"preset": "hot"}, "raw": {"dims": [1, 1, 1]},
+                     "transform": {"rotate": {"axis": "x", "degrees": 1}}},
+                    {"generate": {"kind": "box"}}], "camera": {}, "render": {}, "output": {}}
+check(validator.is_valid(good), "a good scene is refused")
+for path in ([], ["volumes", 0], ["volumes", 0, "transfer"], ["volumes", 0, "raw"], ["volumes", 0, "transform"],
+             ["volumes", 0, "transform", "rotate"], ["volumes", 1, "generate"], ["camera"], ["render"], ["output"]):
+    bad = copy.deepcopy(good)
+    at = bad
+    for step in path:
+        at = at[step]
+    at["unknown"] = 1
+    check(not validator.is_valid(bad), "the schema takes an unknown key in", path)
+for key, value in (("volumes", []), ("volumes", [{}]), ("volumes", [{"file": "a", "generate": {"kind": "box"}}]),
+                   ("volumes", [{"generate": {"kind": "box"}, "time": 1}]), ("background", "pink"),
+                   ("camera", {"fov": 180}), ("render", {"step": 0}), ("output", {"depth": 12})):
+    check(not validator.is_valid({**good, key: value}), "the schema takes", key, value)
+
+print("\n".join(failures) or "%d scenes and examples, %d tables of keys and names" % (len(scenes), len(tables)))
+sys.exit(1 if failures else 0)
+EOF

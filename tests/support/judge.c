@@ -1,0 +1,108 @@
+// judge.c - is a picture that a device made the right one?
+#include "support/judge.h"
+
+#include <math.h>
+
+#include "reference/reference.h"
+#include "support/picture.h"
+#include "support/test.h"
+
+struct judge {
+    struct reference *reference;
+    struct pel_image *expected;
+};
+
+// Positions lie at most a few hundred voxels away, computed in floats by a handful of operations.
+static const double rounding = 0x1p-20;
+
+static bool interpolates_in_floats(const char *device) {
+    return strncmp(device, "pthread", 7) == 0 || strncmp(device, "cpu", 3) == 0 ||
+           strstr(device, "Oclgrind") != NULL;
+}
+
+static struct reference_errors errors_of(const struct pel_render_statistics *statistics) {
+    bool texture =
+        statistics->reader == PEL_READER_IMAGE && !interpolates_in_floats(statistics->device);
+    return (struct reference_errors){
+        .rounding = rounding,
+        .weight = texture ? 0x1p-8 : 0,
+        .value = texture ? 3 : 0,
+    };
+}
+
+struct judge *judge_create(const struct pel_scene *scene) {
+    struct judge *judge = malloc(sizeof *judge);
+    if (!judge)
+        abort();
+    judge->reference = reference_create(scene);
+    judge->expected = reference_render(scene);
+    return judge;
+}
+
+void judge_destroy(struct judge *judge) {
+    reference_destroy(judge->reference);
+    pel_image_destroy(judge->expected);
+    free(judge);
+}
+
+void judge_check(const struct judge *judge, const struct pel_image *picture,
+                 const struct pel_render_statistics *statistics, const char *title) {
+    if (!picture)
+        fail_msg("%s: no picture: %s", title, pel_error_message());
+    const struct pel_image *expected = judge->expected;
+    assert_int_equal(picture->width, expected->width);
+    assert_int_equal(picture->height, expected->height);
+
+    struct reference_errors errors = errors_of(statistics);
+    int wrong_count = 0, worst = 0;
+    double worst_excess = 0, worst_bound = 0;
+    for (int i = 0; i < expected->width * expected->height; i++) {
+        double off = 0;
+        for (int c = 0; c < 4; c++) {
+            double difference =
+                fabs((double)picture->rgba[4 * i + c] - (double)expected->rgba[4 * i + c]);
+            off = isfinite(difference) ? fmax(off, difference) : INFINITY;
+        }
+        if (off <= 1 / 255.0)
+            continue;
+        double bound = 1 / 255.0 + reference_cast_bound(judge->reference, i % expected->width,
+                                                        i / expected->width, &errors);
+        if (off <= bound)
+            continue;
+        wrong_count++;
+        if (off - bound > worst_excess) {
+            worst_excess = off - bound;
+            worst_bound = bound;
+            worst = i;
+        }
+    }
+    if (wrong_count == 0)
+        return;
+
+    const float *actual = picture->rgba + 4 * worst, *right = expected->rgba + 4 * worst;
+    fail_msg("%s: %d pixels are wrong; (%d, %d) is %.3f %.3f %.3f %.3f, not %.3f %.3f %.3f %.3f "
+             "within %.3f (of 255)",
+             title, wrong_count, worst % expected->width, worst / expected->width, 255 * actual[0],
+             255 * actual[1], 255 * actual[2], 255 * actual[3], 255 * right[0], 255 * right[1],
+             255 * right[2], 255 * right[3], 255 * worst_bound);
+}
+
+struct pel_image *judge_render(struct pel_renderer *renderer, const struct pel_scene *scene,
+                               struct pel_render_statistics *statistics, const char *title) {
+    struct pel_render_statistics own;
+    if (!statistics)
+        statistics = &own;
+    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, statistics);
+    struct judge *judge = judge_create(scene);
+    judge_check(judge, picture, statistics, title);
+    judge_destroy(judge);
+    return picture;
+}
+
+struct pel_renderer *judge_renderer(enum pel_reader reader, int lanes) {
+    struct pel_renderer_options options = {.reader = reader, .lanes = lanes};
+    struct pel_renderer *renderer = pel_renderer_create(&options);
+    if (!renderer)
+        fail_msg("no renderer: %s", pel_error_message());
+    return renderer;
+}
