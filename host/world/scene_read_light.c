@@ -1,8 +1,8 @@
 // scene_read_light.c - the `lights` of a scene file and the `shading` of a volume.
 #include "world/scene_plan.h"
 
-static const char *const light_keys[] = {"comment",  "kind",   "direction", "position",
-                                         "colour", "intensity", NULL};
+static const char *const light_keys[] = {"comment", "kind",      "direction", "position",
+                                         "colour",  "intensity", NULL};
 static const char *const shading_keys[] = {"comment",  "model",     "ambient",   "diffuse",
                                            "specular", "shininess", "two_sided", NULL};
 

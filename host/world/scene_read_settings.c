@@ -133,6 +133,7 @@ static bool read_output(struct pel_output_settings *output, const struct pel_sce
 }
 
 bool pel_scene_read_settings(struct pel_scene *scene, const struct pel_scene_node *node) {
-    return pel_scene_read_colour(scene->background, node, "background") && pel_scene_read_lights(scene, node) && read_render(&scene->render, node) &&
+    return pel_scene_read_colour(scene->background, node, "background") &&
+           pel_scene_read_lights(scene, node) && read_render(&scene->render, node) &&
            read_output(&scene->output, node);
 }

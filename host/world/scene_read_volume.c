@@ -13,7 +13,7 @@
 static const char *const volume_keys[] = {
     "comment", "file",    "generate", "raw",          "time",     "channel",
     "name",    "visible", "spacing",  "transform",    "transfer", "density",
-    "extent",  "filter",  "palette",  "opacity_unit", "shading", NULL};
+    "extent",  "filter",  "palette",  "opacity_unit", "shading",  NULL};
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};
