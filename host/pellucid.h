@@ -310,6 +310,26 @@ enum pel_sample_origin {
                         // VTK
 };
 
+// How a volume is shaded: not at all, or with highlights where the half-way vector between light
+// and viewer (Blinn 1977) or the mirrored light (Phong 1975) is near the normal.
+enum pel_shading { PEL_SHADING_NONE, PEL_SHADING_BLINN_PHONG, PEL_SHADING_PHONG };
+
+#define PEL_LIGHT_AMOUNT_MAX 1000.0 // of ambient, diffuse, specular, and light
+#define PEL_SHININESS_MAX 1000.0
+
+// How light changes a volume's colours: c' = c (ambient + diffuse |n.l|) + specular |n.h|^shininess
+// (docs/picture.md, "Shading"). Opacity stays. When all four numbers are zero they are those of
+// pel_material_default.
+struct pel_material {
+    enum pel_shading shading;
+    bool one_sided; // light that comes from the side of greater values does not count
+    double ambient, diffuse, specular; // 0..PEL_LIGHT_AMOUNT_MAX
+    double shininess;                  // 1..PEL_SHININESS_MAX
+};
+
+// VTK's and ours: ambient 0.1, diffuse 0.7, specular 0.2, shininess 10, two-sided.
+PEL_API struct pel_material pel_material_default(enum pel_shading shading);
+
 // One volume as it stands in a scene. Several instances may show one volume.
 struct pel_instance {
     char name[64];
@@ -320,6 +340,23 @@ struct pel_instance {
     enum pel_extent extent;      //
     enum pel_filter filter;      //
     struct pel_transfer *transfer; // owned, resolved
+    struct pel_material material;  //
+};
+
+#define PEL_LIGHT_MAX 8
+
+enum pel_light_kind {
+    PEL_LIGHT_HEADLIGHT,   // shines along each ray
+    PEL_LIGHT_CAMERA,      // shines along the camera's forward axis
+    PEL_LIGHT_DIRECTIONAL, // shines along `direction`
+    PEL_LIGHT_POINT,       // shines from `position`, equally bright at every distance
+};
+
+// What shaded volumes are lit by. Nothing casts a shadow.
+struct pel_light {
+    enum pel_light_kind kind;
+    double direction[3], position[3]; // in the world; a direction has any length but zero
+    double colour[3], intensity;      // their product is in 0..PEL_LIGHT_AMOUNT_MAX
 };
 
 // How empty space is skipped. The picture is the same with each.
@@ -355,6 +392,8 @@ struct pel_scene {
     struct pel_statistics statistics[PEL_VOLUME_MAX]; // of each volume
     int instance_count;
     struct pel_instance instances[PEL_VOLUME_MAX];
+    int light_count; // 0: one white headlight
+    struct pel_light lights[PEL_LIGHT_MAX];
     struct pel_render_settings render;
     struct pel_output_settings output;
     char *text; // owned; the scene as JSON after all overrides, as it goes into the picture

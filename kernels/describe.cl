@@ -13,12 +13,18 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct camera, forward);
     *out++ = OFFSET(struct camera, right);
     *out++ = OFFSET(struct camera, up);
+    *out++ = sizeof(struct lamp);
+    *out++ = OFFSET(struct lamp, place);
+    *out++ = OFFSET(struct lamp, colour);
+    *out++ = OFFSET(struct lamp, kind);
     *out++ = sizeof(struct part);
     *out++ = OFFSET(struct part, voxel_from_world);
     *out++ = OFFSET(struct part, box_low);
     *out++ = OFFSET(struct part, box_high);
     *out++ = OFFSET(struct part, memory_from_voxel);
     *out++ = OFFSET(struct part, atlas_from_memory);
+    *out++ = OFFSET(struct part, memory_high);
+    *out++ = OFFSET(struct part, material);
     *out++ = OFFSET(struct part, table_scale);
     *out++ = OFFSET(struct part, table_bias);
     *out++ = OFFSET(struct part, table_last);
@@ -35,6 +41,10 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, cell_slice);
     *out++ = OFFSET(struct part, ranges);
     *out++ = OFFSET(struct part, visible);
+    *out++ = OFFSET(struct part, normal_scale);
+    *out++ = OFFSET(struct part, spacing_mm);
+    *out++ = OFFSET(struct part, shading);
+    *out++ = OFFSET(struct part, one_sided);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);
@@ -48,5 +58,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, height);
     *out++ = OFFSET(struct world, tiles_x);
     *out++ = OFFSET(struct world, part_count);
+    *out++ = OFFSET(struct world, lamp_count);
+    *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
 }

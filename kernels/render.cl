@@ -5,6 +5,7 @@
 // into spans with a constant set of active parts; the cost of a sample follows that set. Each part has a
 // cursor; after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
+#include "shade.cl"
 #include "span.cl"
 
 #ifndef MIXING
@@ -65,9 +66,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
             *samples -= present;
             const real t = TO_REAL(cursor_clamp(cursor, i));
-            const struct sample sample =
-                sample_part(MEMORY_ARGUMENTS, part, cursor->ox + t * cursor->dx,
-                            cursor->oy + t * cursor->dy, cursor->oz + t * cursor->dz);
+            const real x = cursor->ox + t * cursor->dx, y = cursor->oy + t * cursor->dy,
+                       z = cursor->oz + t * cursor->dz;
+            const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
             const struct entry entry = find_entry(part, sample.raw, &present);
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
@@ -85,6 +86,11 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                 g = sample.g;
                 b = sample.b;
             }
+#endif
+#if SHADING
+            if (part->shading != SHADING_NONE)
+                shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first, t, x, y, z,
+                      CHOOSE(zero, sample.raw, visible), &r, &g, &b);
 #endif
             const real amount = CHOOSE(zero, strength, visible);
 #if STRENGTH_DEPTH

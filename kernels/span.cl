@@ -17,6 +17,9 @@
 #include "traverse/grid.cl"
 #endif
 
+#ifndef SHADING
+#define SHADING 0 // 1: some volume is shaded
+#endif
 #ifndef CAPACITY
 #define CAPACITY 1 // parts the kernel has room for: 1, 8 or WORLD_PART_MAX
 #endif
@@ -31,6 +34,10 @@ struct crossing {
     struct cursor cursors[CAPACITY];
     int parts[CAPACITY];
     int count;
+#if SHADING
+    struct ray ray;
+    real t_first; // where sample 0 lies
+#endif
 };
 
 // Finds the parts that the packet crosses and where each ray's samples begin.
@@ -48,6 +55,10 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
             t_near = CHOOSE(t_near, span.near, nearer);
         }
     }
+#if SHADING
+    crossing->ray = *ray;
+    crossing->t_first = fmin(t_near, 1e9f) + world->phase * world->step_mm;
+#endif
     crossing->count = 0;
     for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
         __constant struct part *part = &world->parts[p];

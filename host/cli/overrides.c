@@ -49,15 +49,16 @@ static char *next_pair(char *text) {
     return NULL;
 }
 
-static bool add_camera_pair(struct overrides *overrides, char *pair) {
+static bool add_pair(struct overrides *overrides, const char *option, const char *parent,
+                     char *pair) {
     char *value = strchr(pair, '=');
     if (!value || value == pair || !value[1]) {
-        cli_fail(PEL_ERROR_ARGUMENT, "--camera: '%s' is not of the form eye=0,-400,0", pair);
+        cli_fail(PEL_ERROR_ARGUMENT, "%s: '%s' is not of the form key=value", option, pair);
         return false;
     }
     *value++ = '\0';
     char key[64];
-    snprintf(key, sizeof key, "camera.%s", pair);
+    snprintf(key, sizeof key, "%s.%s", parent, pair);
     bool list = strchr(value, ',') != NULL;
     char *json = NULL;
     if (asprintf(&json, list ? "[%s]" : "%s", value) < 0)
@@ -67,11 +68,8 @@ static bool add_camera_pair(struct overrides *overrides, char *pair) {
     return true;
 }
 
-bool overrides_add_camera(struct overrides *overrides, const char *text) {
-    if (!strchr(text, '=')) {
-        overrides_add_text(overrides, "camera.view", text);
-        return true;
-    }
+bool overrides_add_pairs(struct overrides *overrides, const char *option, const char *parent,
+                         const char *text) {
     char *copy = strdup(text);
     if (!copy)
         fail_memory();
@@ -80,7 +78,7 @@ bool overrides_add_camera(struct overrides *overrides, const char *text) {
         next = next_pair(pair);
         if (next)
             *next++ = '\0';
-        good = add_camera_pair(overrides, pair);
+        good = add_pair(overrides, option, parent, pair);
     }
     free(copy);
     return good;

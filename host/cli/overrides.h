@@ -15,10 +15,11 @@ struct overrides {
 void overrides_add(struct overrides *overrides, const char *key, const char *value);
 void overrides_add_text(struct overrides *overrides, const char *key, const char *value);
 
-// Appends what --camera says: a view's name, or "key=value,key=value" with keys of the scene's
-// camera and values that may be numbers with commas between them: "eye=0,-400,0,fov=30".
-// False, with a message, when it is neither.
-bool overrides_add_camera(struct overrides *overrides, const char *text);
+// Appends "key=value,key=value", the keys being members of `parent`, with values that may be
+// numbers with commas between them: "eye=0,-400,0,fov=30". False, with a message about `option`,
+// when it is not of that form.
+bool overrides_add_pairs(struct overrides *overrides, const char *option, const char *parent,
+                         const char *text);
 
 void overrides_finish(struct overrides *overrides);
 

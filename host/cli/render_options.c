@@ -17,6 +17,7 @@ enum {
     KEY_PHASE,
     KEY_SKIP,
     KEY_DENSITY,
+    KEY_SHADING,
     KEY_BACKGROUND,
     KEY_TRANSFER,
     KEY_READER,
@@ -49,6 +50,11 @@ static const struct argp_option argp_options[] = {
     {"transfer", KEY_TRANSFER, "PRESET|FILE", 0, "Transfer function", 0},
     {"density", KEY_DENSITY, "X", 0, "Multiplies the extinction", 0},
     {"filter", KEY_FILTER, "linear|nearest", 0, "Interpolation between voxels", 0},
+    {"shading", KEY_SHADING, "on|off|KEY=VALUE,...", OPTION_ARG_OPTIONAL,
+     "Light them by the gradient of their values; or not; or with keys of the scene's shading, "
+     "such "
+     "as model=phong,shininess=40",
+     0},
     {0, 0, NULL, 0, "Rendering:", 4},
     {"mix", KEY_MIX, "sum|over", 0, "How overlapping volumes share a sample", 0},
     {"step", KEY_STEP, "N", 0, "Distance of samples, in voxels of the finest volume", 0},
@@ -116,6 +122,27 @@ static void add_background(struct render_options *options, const char *text) {
         overrides_add_text(&options->overrides, "background", text);
 }
 
+static bool add_camera(struct render_options *options, const char *text) {
+    if (strchr(text, '='))
+        return overrides_add_pairs(&options->overrides, "--camera", "camera", text);
+    overrides_add_text(&options->overrides, "camera.view", text);
+    return true;
+}
+
+static bool add_shading(struct render_options *options, const char *text) {
+    if (text && strchr(text, '=')) {
+        overrides_add(&options->overrides, "volumes.*.shading", "{}");
+        return overrides_add_pairs(&options->overrides, "--shading", "volumes.*.shading", text);
+    }
+    if (text && strcmp(text, "on") != 0 && strcmp(text, "off") != 0) {
+        cli_fail(PEL_ERROR_ARGUMENT, "--shading: '%s' is not on, off or KEY=VALUE,...", text);
+        return false;
+    }
+    bool off = text && strcmp(text, "off") == 0;
+    overrides_add(&options->overrides, "volumes.*.shading", off ? "false" : "true");
+    return true;
+}
+
 static bool add_set(struct render_options *options, const char *text) {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text) {
@@ -136,7 +163,7 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         good = add_size(options, argument);
         break;
     case KEY_CAMERA:
-        good = overrides_add_camera(&options->overrides, argument);
+        good = add_camera(options, argument);
         break;
     case KEY_MIX:
         overrides_add_text(&options->overrides, "render.mixing", argument);
@@ -161,6 +188,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_TRANSFER:
         overrides_add_text(&options->overrides, "volumes.*.transfer", argument);
+        break;
+    case KEY_SHADING:
+        good = add_shading(options, argument);
         break;
     case KEY_BACKGROUND:
         add_background(options, argument);

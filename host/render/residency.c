@@ -88,7 +88,7 @@ static bool send_slab(struct pel_residency *residency, const struct pel_volume *
         size_t count = dims[2] - first < most ? dims[2] - first : most;
         for (size_t i = 0; i < count; i++) {
             char *slice = piece + i * slice_bytes;
-            pel_pack_slice(volume, slab->first - 1 + (int)(first + i), slice);
+            pel_pack_slice(volume, slab->first - slab->border[0] + (int)(first + i), slice);
             pel_grid_add_slice(&grid, first + i, slice, slab->class_index, (float)scale);
         }
         good = send_slices(residency, slab, dims, slice_bytes, first, count, piece);

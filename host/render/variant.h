@@ -15,6 +15,7 @@ struct pel_variant {
     int mixing;   // MIXING_*
     int skip;     // SKIP_*
     int capacity; // parts: 1, 8 or WORLD_PART_MAX
+    bool shading; // some part is shaded
     bool table_linear;
     bool table_global; // the tables do not fit into constant memory
 };

@@ -37,7 +37,7 @@ size_t pel_voxel_class_bytes(int class_index) {
 void pel_slab_dims(const struct pel_slab *slab, const struct pel_volume *volume, size_t dims[3]) {
     dims[0] = (size_t)volume->dims[0] + 2;
     dims[1] = (size_t)volume->dims[1] + 2;
-    dims[2] = (size_t)slab->count + 2;
+    dims[2] = (size_t)slab->border[0] + (size_t)slab->count + (size_t)slab->border[1];
 }
 
 double pel_reader_factor(enum pel_reader reader, int class_index) {
@@ -74,6 +74,8 @@ static struct pel_slab *add_slab(struct pel_layout *layout, const struct pel_sce
     slab->class_index = pel_voxel_class(scene->volumes[v]->type);
     slab->first = first;
     slab->count = count;
+    slab->border[0] = first > 0 ? 2 : 1;
+    slab->border[1] = first + count < scene->volumes[v]->dims[2] ? 2 : 1;
     slab->ranges = (u32)layout->range_count;
     size_t dims[3], cells = 1;
     pel_slab_dims(slab, scene->volumes[v], dims);
@@ -108,19 +110,21 @@ static bool plan_buffers(struct pel_layout *layout, const struct pel_scene *scen
         const struct pel_volume *volume = scene->volumes[v];
         uint64_t slice = slice_bytes(volume);
         uint64_t most = limit / slice; // slices that fit into one buffer, border included
-        if (most < 3)
+        bool whole = most >= (uint64_t)volume->dims[2] + 2;
+        if (!whole && most < 5)
             return pel_fail(PEL_ERROR_DEVICE,
                             "volume '%s': one slice needs %" PRIu64
                             " bytes with its border, the device's largest "
                             "allocation is %" PRIu64,
-                            volume->name, slice * 3, limit);
-        int slices = most - 2 < (uint64_t)volume->dims[2] ? (int)(most - 2) : volume->dims[2];
+                            volume->name, slice * 5, limit);
+        int slices = whole ? volume->dims[2] : (int)(most - 4);
         for (int first = 0; first < volume->dims[2]; first += slices) {
             int count = volume->dims[2] - first < slices ? volume->dims[2] - first : slices;
             struct pel_slab *slab = add_slab(layout, scene, v, first, count);
             if (!slab)
                 return false;
-            if (!place_slab(layout, slab, slice * ((uint64_t)count + 2), limit))
+            uint64_t stored = (uint64_t)(slab->border[0] + count + slab->border[1]);
+            if (!place_slab(layout, slab, slice * stored, limit))
                 return pel_fail(
                     PEL_ERROR_DEVICE,
                     "the volumes need %" PRIu64 " bytes, the device takes %d buffers of %" PRIu64

@@ -2,7 +2,7 @@
 //
 // A volume is stored with a border of one voxel on every side that repeats its edge. One that is
 // larger than the largest allocation is cut across z into slabs, each with its own border taken
-// from its neighbours, so that a ray passes from slab to slab without a seam. With the `image`
+// from its neighbours, of two voxels so that gradients have no seam there either. With the `image`
 // reader volumes of one class lie in one atlas; with the `buffer` reader volumes share up to
 // VOXEL_BUFFERS buffers.
 #ifndef PEL_WORLD_LAYOUT_H
@@ -26,6 +26,7 @@ struct pel_slab {
     int volume;            // index in the scene
     int class_index;       // which bit of VOXELS_*
     int first, count;      // slices, border not counted
+    int border[2];         // stored slices before and behind them
     int buffer;            // `buffer` reader: which buffer,
     uint64_t offset_bytes; // and where in it
     u32 ranges;            // index of the first cell's range of values

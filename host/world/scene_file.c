@@ -17,7 +17,7 @@
 // Scenes are written by people.
 enum { SCENE_BYTES_MAX = 16 << 20 };
 
-static const char *const scene_keys[] = {"$schema", "comment", "camera", "background",
+static const char *const scene_keys[] = {"$schema", "comment", "camera", "background", "lights",
                                          "volumes", "render",  "output", NULL};
 
 static bool read_document(struct pel_scene *scene, struct pel_scene_plan *plan) {

@@ -57,6 +57,12 @@ bool pel_scene_read_pose(struct pel_pose_plan *pose, const struct pel_scene_node
 bool pel_scene_read_source(struct pel_volume_plan *plan, const struct pel_scene_node *node);
 bool pel_scene_read_transfer(struct pel_transfer **transfer, const struct pel_scene_node *node);
 
+bool pel_scene_read_lights(struct pel_scene *scene, const struct pel_scene_node *node);
+bool pel_scene_read_material(struct pel_material *material, const struct pel_scene_node *volume);
+
+// A colour by name, as #rrggbb[aa] or as 3 or 4 numbers; without an alpha, rgba[3] stays.
+bool pel_scene_read_colour(double rgba[4], const struct pel_scene_node *object, const char *key);
+
 // The one instance of that name; fails about `node` when there is none, or several.
 bool pel_scene_find_instance(const struct pel_scene *scene, const struct pel_scene_node *node,
                              const char *name, int *instance);

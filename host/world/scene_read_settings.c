@@ -39,9 +39,9 @@ static bool read_hex(const char *text, double rgba[4]) {
     return true;
 }
 
-static bool read_background(double rgba[4], const struct pel_scene_node *scene) {
+bool pel_scene_read_colour(double rgba[4], const struct pel_scene_node *object, const char *key) {
     struct pel_scene_node node;
-    if (!pel_node_member(&node, scene, "background"))
+    if (!pel_node_member(&node, object, key))
         return true;
     if (json_is_array(node.value)) {
         size_t count = json_array_size(node.value) == 4 ? 4 : 3;
@@ -133,6 +133,7 @@ static bool read_output(struct pel_output_settings *output, const struct pel_sce
 }
 
 bool pel_scene_read_settings(struct pel_scene *scene, const struct pel_scene_node *node) {
-    return read_background(scene->background, node) && read_render(&scene->render, node) &&
+    return pel_scene_read_colour(scene->background, node, "background") &&
+           pel_scene_read_lights(scene, node) && read_render(&scene->render, node) &&
            read_output(&scene->output, node);
 }

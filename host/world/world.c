@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "camera/camera.h"
+#include "world/lighting.h"
 #include "world/strength.h"
 
 static float4 to_float4(const double v[3], double w) {
@@ -113,7 +114,7 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         *part = *pattern;
         for (int i = 0; i < 3; i++)
             part->voxel_from_world[i] = to_float4(voxel_from_world.m[i], voxel_from_world.m[i][3]);
-        double low[3], high[3], shift[3] = {1, 1, 1}, origin[3];
+        double low[3], high[3], shift[3] = {1, 1, slab->border[0]}, origin[3];
         for (int i = 0; i < 3; i++) {
             low[i] = -outer;
             high[i] = volume->dims[i] - 1 + outer;
@@ -138,6 +139,8 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
 
         size_t stored[3];
         pel_slab_dims(slab, volume, stored);
+        part->memory_high =
+            (float4){(float)stored[0] - 1.5F, (float)stored[1] - 1.5F, (float)stored[2] - 1.5F, 0};
         part->cell_row = (i32)pel_grid_cells(stored[0]);
         part->cell_slice = part->cell_row * (i32)pel_grid_cells(stored[1]);
         part->cells = (u32)world->cell_count;
@@ -252,8 +255,12 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         struct part pattern = {0};
         pattern.filter = instance->filter == PEL_FILTER_NEAREST ? FILTERS_NEAREST : FILTERS_LINEAR;
         world->filters |= pattern.filter;
-        if (!fill_table(world, scene, layout, instance, &tables[k], &pattern) ||
-            !fill_parts(world, scene, layout, instance, &pattern, centre))
+        if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
+            return false;
+        if (!pel_lighting_fill_part(&pattern, instance, scene->volumes[instance->volume]))
+            return pel_fail_in("volume '%s'", instance->name);
+        world->shaded |= pattern.shading != SHADING_NONE;
+        if (!fill_parts(world, scene, layout, instance, &pattern, centre))
             return false;
     }
     return true;
@@ -272,7 +279,8 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     for (int i = 0; i < 3; i++)
         centre[i] = (bounds.low[i] + bounds.high[i]) / 2;
     fill_frame(world, scene, &bounds, centre);
-    if (!fill_camera(&world->bytes.camera, &scene->camera, &scene->render, centre))
+    if (!fill_camera(&world->bytes.camera, &scene->camera, &scene->render, centre) ||
+        !pel_lighting_fill_lamps(&world->bytes, scene, centre))
         return false;
 
     world->mixing = scene->render.mixing == PEL_MIX_SUM ? MIXING_SUM : MIXING_OVER;

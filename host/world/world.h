@@ -17,6 +17,7 @@ struct pel_world {
     int filters;       // FILTERS_*
     int mixing;        // MIXING_*
     bool table_linear; // some table must be interpolated
+    bool shaded;       // some part is
     bool depth;        // strengths are optical depths: more than one part, and extinctions add
 };
 

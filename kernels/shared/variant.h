@@ -27,6 +27,21 @@
 #define SKIP_GRID 1     // cell by cell
 #define SKIP_DISTANCE 2 // by the distance to the nearest cell with something in it
 
+// Of a part: how it is shaded. The knob SHADING is 1 when any part is.
+#define SHADING_NONE 0
+#define SHADING_BLINN_PHONG 1
+#define SHADING_PHONG 2
+
+// The gradient, in ranges of the table per voxel, at which a normal has half its squared length: so small a one
+// in floats has no direction to be trusted.
+#define SHADE_SOFTNESS 0x1p-16f
+
+// Of a lamp: where its light comes from.
+#define LAMP_HEADLIGHT 0   // the viewer, along each ray
+#define LAMP_DIRECTIONAL 1 // one direction
+#define LAMP_POINT 2       // one place
+#define LAMP_MAX 8
+
 // Pixels along a side of the square tiles in which work is handed out.
 #define TILE_PX 16
 

@@ -7,11 +7,13 @@
 //     struct world
 //       struct camera          the only part that changes when the camera moves
 //       bounds, step ...       one per frame
+//       struct lamp lamps[]    what shaded volumes are lit by
 //       struct part parts[]    one box of voxels each, in the order of the scene's list
 #ifndef SHARED_WORLD_H
 #define SHARED_WORLD_H
 
 #include "shared/types.h"
+#include "shared/variant.h"
 
 // 32 volumes, and room for the slabs of volumes too large for one buffer.
 #define WORLD_PART_MAX 64
@@ -25,12 +27,23 @@ struct camera {
 
 SHARED_ASSERT(sizeof(struct camera) == 96, camera_size);
 
+struct lamp {
+    float4 place;  // of a point; towards a directional one, of length 1
+    float4 colour; // times intensity
+    i32 kind;      // one of LAMP_*
+    i32 pad[3];
+};
+
+SHARED_ASSERT(sizeof(struct lamp) == 48, lamp_size);
+
 // A whole volume, or a slab of one: the intersection of the volume's box with first <= z < last.
 struct part {
     float4 voxel_from_world[3]; // rows of an affine matrix
     float4 box_low, box_high;   // voxel coordinates
     float4 memory_from_voxel;   // to be added to voxel coordinates
     float4 atlas_from_memory;   // and to memory coordinates, where the part lies in an image
+    float4 memory_high;         // memory coordinates end here (and begin at 1/2) for gradients
+    float4 material;            // ambient, diffuse, specular, shininess
     float table_scale;          // table entry = raw * table_scale + table_bias
     float table_bias;
     float table_last;           // the last entry's index
@@ -45,9 +58,13 @@ struct part {
     i32 cell_row, cell_slice;   // cells from one row and slice of them to the next
     u32 ranges;                 // index of the first cell's range of values
     u32 visible;                // index of the table's first count of visible entries
+    float normal_scale;         // from a difference over two voxels to ranges of the table per voxel, negative
+    float spacing_mm;           // of the nearest voxels
+    i32 shading;                // one of SHADING_*
+    i32 one_sided;              // 1: light comes only from where the normal points
 };
 
-SHARED_ASSERT(sizeof(struct part) == 176, part_size);
+SHARED_ASSERT(sizeof(struct part) == 224, part_size);
 
 struct world {
     struct camera camera;
@@ -60,9 +77,12 @@ struct world {
     i32 width, height; // of the picture in pixels
     i32 tiles_x;       // tiles in a row of the picture
     i32 part_count;
+    i32 lamp_count;
+    i32 pad[3];
+    struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
 };
 
-SHARED_ASSERT(sizeof(struct world) == 176 + 176 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 192 + 48 * LAMP_MAX + 224 * WORLD_PART_MAX, world_size);
 
 #endif

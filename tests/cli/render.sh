@@ -54,7 +54,8 @@ png eye.png '__import__("json").loads(texts["camera"])["eye"] == [0, -200, 0]'
 png eye.png '__import__("json").loads(texts["camera"])["fov"] == 30'
 for option in '--mix over' '--filter nearest' '--termination 1' '--phase 0.25' '--density 0.5' '--background white' \
     '--background 0.1,0.2,0.3' '--background #102030' '--transfer viridis' '--alpha premultiplied' '--reader buffer' \
-    '--lanes 4' '--lanes 1' '--work-group 1' '--set camera.fov=20' '--quiet'; do
+    '--shading' '--shading=off' '--shading=model=phong,ambient=0.2,shininess=30' '--lanes 4' '--lanes 1' \
+    '--work-group 1' '--set camera.fov=20' '--quiet'; do
     # shellcheck disable=SC2086
     expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" $option -o option.png
 done

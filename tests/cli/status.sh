@@ -39,6 +39,8 @@ expect 2 "^pellucid: --lanes: 3 is none of 1, 4, 8, 16" render a.json --lanes 3
 expect 2 "^pellucid: --lanes: 'many' is not a whole number" render a.json --lanes many
 expect 2 "^pellucid: --work-group: '0' is not a whole number of at least 1" render a.json --work-group 0
 expect 2 "^pellucid: --camera: 'eye' is not of the form" render a.json --camera fov=3,eye
+expect 2 "^pellucid: --shading: 'matt' is not on, off or KEY=VALUE" render a.json --shading=matt
+expect 2 "^pellucid: --shading: 'ambient' is not of the form" render a.json --shading=diffuse=1,ambient
 expect 2 "^pellucid: --set: 'camera.fov' is not of the form key=value" render a.json --set camera.fov
 expect 2 "^pellucid: --type|^pellucid: no voxel type 'uint7'" convert a.nrrd b.nrrd --type uint7
 expect 2 "^pellucid: --downsample: '0'" convert a.nrrd b.nrrd --downsample 0

@@ -5,15 +5,16 @@
 //
 //     dC = integral of de(s) (T(s) c(s) - integral behind s of T e c) ds + integral of T e dc
 //
-// Both terms in the brackets lie in [0, T(s)], so |dC| <= integral of T |de| + T e |dc|, and the
-// same for the opacity with c = 1. Along the ray de and dc are taken as the greatest change over
-// the values the sample may have had.
+// Both terms in the brackets lie in [0, m T(s)] where m is the brightest colour, 1 but for shading,
+// so |dC| <= integral of m T |de| + T e |dc|, and the same for the opacity with c = 1. Along the
+// ray de and dc are taken as the greatest change over the values the sample may have had.
 #include "reference/reference.h"
 
 #include <math.h>
 
 #include "base/math.h"
 #include "reference/path.h"
+#include "reference/shade.h"
 
 struct change {
     double extinction, colour;
@@ -24,6 +25,33 @@ static void widen(struct change *change, const struct reference_medium *a,
     change->extinction = fmax(change->extinction, fabs(a->extinction - b->extinction));
     for (int c = 0; c < 3; c++)
         change->colour = fmax(change->colour, fabs(a->rgb[c] - b->rgb[c]));
+}
+
+// Sample t of a ray, as body k has it.
+struct spot {
+    const struct reference *reference;
+    const struct reference_path *path;
+    const struct reference_body *body;
+    double t;
+};
+
+// What is near the spot, as it is shaded there. False when it is absent.
+static bool medium_at(struct reference_medium *medium, const struct spot *spot,
+                      const double p_voxel[3]) {
+    const struct reference_body *body = spot->body;
+    struct reference_sample sample;
+    *medium = (struct reference_medium){0};
+    if (!reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel))
+        return false;
+    *medium = reference_classify(body->instance, &body->table, &sample);
+    if (body->instance->material.shading == PEL_SHADING_NONE)
+        return true;
+    double normal[3];
+    reference_normal(normal, body, p_voxel, sample.value, NULL);
+    struct reference_shade shade =
+        reference_shade(spot->reference, body, &spot->path->ray, spot->t, normal);
+    reference_shade_apply(medium, &shade);
+    return true;
 }
 
 // The value may have been up to `reach` more or less. Looked at in a few places between, as tables
@@ -41,18 +69,38 @@ static void widen_by_value(struct change *change, const struct reference_body *b
 }
 
 // The place may have been up to `reach_voxel` off along each axis: for `nearest`, another voxel.
-static void widen_by_place(struct change *change, const struct reference_body *body,
+static void widen_by_place(struct change *change, const struct spot *spot,
                            const struct reference_medium *medium, const double p_voxel[3],
                            double reach_voxel) {
     for (int n = 0; n < 6; n++) {
         double moved[3] = {p_voxel[0], p_voxel[1], p_voxel[2]};
         moved[n % 3] += n < 3 ? reach_voxel : -reach_voxel;
-        struct reference_sample sample;
-        struct reference_medium other = {0};
-        if (reference_sample_volume(&sample, body->volume, body->instance->filter, moved))
-            other = reference_classify(body->instance, &body->table, &sample);
+        struct reference_medium other;
+        medium_at(&other, spot, moved);
         widen(change, medium, &other);
     }
+}
+
+// How far an interpolated value may be off where one in each weight makes `spread`.
+static double value_reach(const struct reference_body *body, double spread, double value,
+                          double reach_voxel, const struct reference_errors *errors) {
+    return (errors->weight + reach_voxel) * spread +
+           (body->volume->type == PEL_VOXEL_F32 ? 0 : errors->value * fabs(body->volume->slope)) +
+           errors->rounding * fabs(value);
+}
+
+// The samples of the gradient may have been off, too.
+static void widen_by_shade(struct change *change, const struct spot *spot,
+                           const struct reference_sample *sample, const double p_voxel[3],
+                           double reach_voxel, const struct reference_errors *errors) {
+    if (spot->body->instance->material.shading == PEL_SHADING_NONE)
+        return;
+    double normal[3], spread;
+    reference_normal(normal, spot->body, p_voxel, sample->value, &spread);
+    double reach =
+        value_reach(spot->body, spread, fabs(sample->value) + spread, reach_voxel, errors);
+    change->colour = change->colour * reference_shade_greatest(spot->reference, spot->body) +
+                     reference_shade_change(spot->reference, spot->body, normal, reach);
 }
 
 static double spacing_along(const struct reference_body *body, int axis) {
@@ -63,6 +111,14 @@ static double spacing_along(const struct reference_body *body, int axis) {
 static double rounding_mm(const struct reference *reference, double t,
                           const struct reference_errors *errors) {
     return errors->rounding * (t + pel_length(reference->scene->camera.eye));
+}
+
+// The brightest colour there may be, at least 1.
+static double brightest(const struct reference *reference) {
+    double greatest = 1;
+    for (int k = 0; k < reference->body_count; k++)
+        greatest = fmax(greatest, reference_shade_greatest(reference, &reference->bodies[k]));
+    return greatest;
 }
 
 // Adds what body k has at t to `*extinction`, and what may be wrong about it, per millimetre, to
@@ -81,26 +137,25 @@ static void add_body(double *extinction, double *wrong, const struct reference *
     for (int axis = 0; axis < 3; axis++)
         reach_voxel = fmax(reach_voxel, slack_mm / spacing_along(body, axis));
 
+    const struct spot spot = {reference, path, body, t};
     struct reference_sample sample;
-    struct reference_medium medium = {0};
+    struct reference_medium medium;
     struct change change = {0};
+    medium_at(&medium, &spot, p_voxel);
     if (reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel)) {
-        medium = reference_classify(body->instance, &body->table, &sample);
-        double reach =
-            (errors->weight + reach_voxel) * sample.spread +
-            (body->volume->type == PEL_VOXEL_F32 ? 0 : errors->value * fabs(body->volume->slope)) +
-            errors->rounding * fabs(sample.value);
+        double reach = value_reach(body, sample.spread, sample.value, reach_voxel, errors);
         widen_by_value(&change, body, &sample, reach);
         // A volume's own colours are interpolated too, each over its whole range at most.
         if (sample.coloured)
             change.colour = fmax(change.colour, 3 * errors->weight + errors->value / 255);
+        widen_by_shade(&change, &spot, &sample, p_voxel, reach_voxel, errors);
     }
-    widen_by_place(&change, body, &medium, p_voxel, reach_voxel);
+    widen_by_place(&change, &spot, &medium, p_voxel, reach_voxel);
 
     *extinction += medium.extinction;
-    *wrong += change.extinction + medium.extinction * change.colour;
+    *wrong += change.extinction * brightest(reference) + medium.extinction * change.colour;
     if (fabs(t - span.t_in) <= slack_mm || fabs(t - span.t_out) <= slack_mm)
-        *wrong += medium.extinction;
+        *wrong += medium.extinction * brightest(reference);
 }
 
 double reference_cast_bound(const struct reference *reference, double x_px, double y_px,
@@ -123,7 +178,8 @@ double reference_cast_bound(const struct reference *reference, double x_px, doub
         if (termination < 1 && beyond > bound + errors->rounding)
             break;
         if (termination < 1 && beyond > -bound - errors->rounding)
-            bound += transmittance * (1 - exp(-extinction * reference->step_mm));
+            bound +=
+                brightest(reference) * transmittance * (1 - exp(-extinction * reference->step_mm));
         bound += transmittance * -expm1(-wrong * reference->step_mm);
         depth += extinction * reference->step_mm;
     }

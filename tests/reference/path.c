@@ -81,6 +81,7 @@ bool reference_begin(struct reference_path *path, const struct reference *refere
     const struct pel_scene *scene = reference->scene;
     struct reference_ray ray =
         reference_camera_ray(&scene->camera, scene->render.width, scene->render.height, x_px, y_px);
+    path->ray = ray;
     path->t_near = INFINITY;
     path->t_far = -INFINITY;
     for (int k = 0; k < reference->body_count; k++) {

@@ -24,6 +24,7 @@ struct reference {
 
 // One ray on its way: what it meets, and where its samples lie.
 struct reference_path {
+    struct reference_ray ray;                  // in the world
     struct reference_ray rays[PEL_VOLUME_MAX]; // in the voxel coordinates of each body
     struct reference_span spans[PEL_VOLUME_MAX];
     double t_near, t_far; // no sample lies at t_far or beyond

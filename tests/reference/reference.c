@@ -5,6 +5,7 @@
 
 #include "reference/mix.h"
 #include "reference/path.h"
+#include "reference/shade.h"
 
 // The media present at t, in the order of the list; returns how many. `*taken` counts absent
 // samples too.
@@ -19,8 +20,16 @@ static int media_at(struct reference_medium media[], const struct reference *ref
         struct reference_sample sample;
         reference_point_at(p_voxel, &path->rays[k], t);
         ++*taken;
-        if (reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel))
-            media[count++] = reference_classify(body->instance, &body->table, &sample);
+        if (!reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel))
+            continue;
+        media[count] = reference_classify(body->instance, &body->table, &sample);
+        if (body->instance->material.shading != PEL_SHADING_NONE && media[count].extinction > 0) {
+            double normal[3];
+            reference_normal(normal, body, p_voxel, sample.value, NULL);
+            struct reference_shade shade = reference_shade(reference, body, &path->ray, t, normal);
+            reference_shade_apply(&media[count], &shade);
+        }
+        count++;
     }
     return count;
 }

@@ -43,6 +43,8 @@ pairs = {
     "scene_read_pose.c:rotate_keys": (rotate, None),
     "scene_read_pose.c:file_keys": (file, None),
     "scene_read_pose.c:rotation_keys": (rotation, "rotate"),
+    "scene_read_light.c:light_keys": (defs["light"], "light"),
+    "scene_read_light.c:shading_keys": (defs["shading"]["anyOf"][1], "shading"),
     "transfer_file.c:known_keys": (own_transfer, "transfer"),
     "scene_read_settings.c:render_keys": (defs["render"], "render"),
     "scene_read_settings.c:output_keys": (defs["output"], "output"),
@@ -93,10 +95,12 @@ def place(section, key, value):
     volume = {"file": "a"}
     holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"}, "raw": {"dims": [1, 1, 1]},
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
-              "render": {}, "output": {}}[section]
+              "render": {}, "output": {}, "light": {}, "shading": {}}[section]
     if section == "transform":
         holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
                        "comment": {"file": "a"}}.get(key, {}))
+    if section == "light":
+        holder["kind"] = {"direction": "directional", "position": "point"}.get(key, "headlight")
     holder[key] = value
     if section == "volume" and key == "generate":
         del volume["file"]
@@ -107,7 +111,9 @@ def place(section, key, value):
         volume = {"generate": holder}
     elif section == "rotate":
         volume["transform"] = {"rotate": holder}
-    elif section in ("raw", "transform", "transfer"):
+    elif section == "light":
+        return {"volumes": [volume], "lights": [holder]}
+    elif section in ("raw", "transform", "transfer", "shading"):
         volume[section] = holder
     return {"volumes": [volume], **(inner if section in ("camera", "render", "output") else {})}
 for _, section in pairs.values():
@@ -120,11 +126,11 @@ for _, section in pairs.values():
 
 # The schema is strict.
 good = {"volumes": [{"file": "a", "transfer": {"preset": "hot"}, "raw": {"dims": [1, 1, 1]},
-                     "transform": {"rotate": {"axis": "x", "degrees": 1}}},
-                    {"generate": {"kind": "box"}}], "camera": {}, "render": {}, "output": {}}
+                     "transform": {"rotate": {"axis": "x", "degrees": 1}}, "shading": {}},
+                    {"generate": {"kind": "box"}}], "camera": {}, "lights": [{}], "render": {}, "output": {}}
 check(validator.is_valid(good), "a good scene is refused")
 for path in ([], ["volumes", 0], ["volumes", 0, "transfer"], ["volumes", 0, "raw"], ["volumes", 0, "transform"],
-             ["volumes", 0, "transform", "rotate"], ["volumes", 1, "generate"], ["camera"], ["render"], ["output"]):
+             ["volumes", 0, "transform", "rotate"], ["volumes", 1, "generate"], ["volumes", 0, "shading"], ["lights", 0], ["camera"], ["render"], ["output"]):
     bad = copy.deepcopy(good)
     at = bad
     for step in path:
@@ -133,7 +139,8 @@ for path in ([], ["volumes", 0], ["volumes", 0, "transfer"], ["volumes", 0, "raw
     check(not validator.is_valid(bad), "the schema takes an unknown key in", path)
 for key, value in (("volumes", []), ("volumes", [{}]), ("volumes", [{"file": "a", "generate": {"kind": "box"}}]),
                    ("volumes", [{"generate": {"kind": "box"}, "time": 1}]), ("background", "pink"),
-                   ("camera", {"fov": 180}), ("render", {"step": 0}), ("output", {"depth": 12})):
+                   ("lights", []), ("lights", [{}] * 9), ("lights", [{"kind": "point"}]),
+                   ("lights", [{"direction": [0, 0, 1]}]), ("camera", {"fov": 180}), ("render", {"step": 0}), ("output", {"depth": 12})):
     check(not validator.is_valid({**good, key: value}), "the schema takes", key, value)
 
 print("\n".join(failures) or "%d scenes and examples, %d tables of keys and names" % (len(scenes), len(tables)))

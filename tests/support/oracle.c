@@ -23,18 +23,29 @@
 // Surfaces of T2 are a voxel wide: where a ray just misses one or stops before one, correct
 // renderers differ more.
 const struct oracle_picture oracle_pictures[] = {
-    {FOLDER "openvkl_T1_s0_n1_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T1.f32", 1, 2, 0, 0},
-    {FOLDER "openvkl_T2_s0_n1_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T2.f32", 1, 2, 20, 10},
-    {FOLDER "openvkl_T3_s0_n1_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T3.f32", 1, 2, 0, 0},
-    {FOLDER "openvkl_T2_s0_n4_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T2.f32", 4, 2, 20, 10},
-    {FOLDER "openvkl_T3_s0_n4_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T3.f32", 4, 2, 0, 0},
-    {FOLDER "vtkgpu_f32vol_T1_s0_n1_640x480.png", ORACLE_VTK, FOLDER "tf_T1.f32", 1, 2, 0, 0},
-    {FOLDER "vtkgpu_f32vol_T2_s0_n1_640x480.png", ORACLE_VTK, FOLDER "tf_T2.f32", 1, 2, 0, 0},
-    {FOLDER "vtkgpu_f32vol_T3_s0_n1_640x480.png", ORACLE_VTK, FOLDER "tf_T3.f32", 1, 2, 0, 0},
-    {FOLDER "vtkgpu_f32vol_T1_s0_n4_640x480.png", ORACLE_VTK, FOLDER "tf_T1.f32", 4, 4, 0, 0},
-    {FOLDER "vtkgpu_f32vol_T2_s0_n4_640x480.png", ORACLE_VTK, FOLDER "tf_T2.f32", 4, 4, 0, 0},
-    {FOLDER "vtkgpu_f32vol_T3_s0_n4_640x480.png", ORACLE_VTK, FOLDER "tf_T3.f32", 4, 4, 0, 0},
-    {FOLDER "cuda_samples_bucky_ref_512.png", ORACLE_CUDA, NULL, 1, 2, 0, 0},
+    {FOLDER "openvkl_T1_s0_n1_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T1.f32", 1, 2, 0, 0, false},
+    {FOLDER "openvkl_T2_s0_n1_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T2.f32", 1, 2, 20, 10,
+     false},
+    {FOLDER "openvkl_T3_s0_n1_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T3.f32", 1, 2, 0, 0, false},
+    {FOLDER "openvkl_T2_s0_n4_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T2.f32", 4, 2, 20, 10,
+     false},
+    {FOLDER "openvkl_T3_s0_n4_640x480.png", ORACLE_OPENVKL, FOLDER "tf_T3.f32", 4, 2, 0, 0, false},
+    {FOLDER "vtkgpu_f32vol_T1_s0_n1_640x480.png", ORACLE_VTK, FOLDER "tf_T1.f32", 1, 2, 0, 0,
+     false},
+    {FOLDER "vtkgpu_f32vol_T2_s0_n1_640x480.png", ORACLE_VTK, FOLDER "tf_T2.f32", 1, 2, 0, 0,
+     false},
+    {FOLDER "vtkgpu_f32vol_T3_s0_n1_640x480.png", ORACLE_VTK, FOLDER "tf_T3.f32", 1, 2, 0, 0,
+     false},
+    {FOLDER "vtkgpu_f32vol_T1_s1_n1_640x480.png", ORACLE_VTK, FOLDER "tf_T1.f32", 1, 2, 0, 0, true},
+    {FOLDER "vtkgpu_f32vol_T2_s1_n1_640x480.png", ORACLE_VTK, FOLDER "tf_T2.f32", 1, 2, 0, 0, true},
+    {FOLDER "vtkgpu_f32vol_T3_s1_n1_640x480.png", ORACLE_VTK, FOLDER "tf_T3.f32", 1, 2, 0, 0, true},
+    {FOLDER "vtkgpu_f32vol_T1_s0_n4_640x480.png", ORACLE_VTK, FOLDER "tf_T1.f32", 4, 4, 0, 0,
+     false},
+    {FOLDER "vtkgpu_f32vol_T2_s0_n4_640x480.png", ORACLE_VTK, FOLDER "tf_T2.f32", 4, 4, 0, 0,
+     false},
+    {FOLDER "vtkgpu_f32vol_T3_s0_n4_640x480.png", ORACLE_VTK, FOLDER "tf_T3.f32", 4, 4, 0, 0,
+     false},
+    {FOLDER "cuda_samples_bucky_ref_512.png", ORACLE_CUDA, NULL, 1, 2, 0, 0, false},
     {0},
 };
 
@@ -137,6 +148,9 @@ static struct pel_scene *task_scene(const struct oracle_picture *picture) {
             k == 0 ? scene_add(scene, read_volume(FOLDER "task256.raw.gz", 256), transfer)
                    : scene_add_again(scene, 0, transfer);
         instance->extent = PEL_EXTENT_POINT;
+        // VTK's default light shines along each ray.
+        if (picture->shaded)
+            instance->material = pel_material_default(PEL_SHADING_BLINN_PHONG);
 
         // Copy k is turned by 15 k degrees about the y axis through the middle.
         double half_angle = 15 * k * PEL_PI / 360, middle[3] = {127.5, 127.5, 127.5}, turned[3];

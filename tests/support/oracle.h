@@ -13,6 +13,7 @@ struct oracle_picture {
     double bound_255;     // of the difference,
     int exception_count;  // but for so many pixels in a full picture,
     double exception_255; // which may be this far off
+    bool shaded;          //
 };
 
 // Ends with a row without file.

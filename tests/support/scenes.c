@@ -64,6 +64,11 @@ void scene_move(struct pel_scene *scene, const struct pel_matrix *transform) {
     pel_matrix_point(camera->eye, transform, camera->eye);
     pel_matrix_point(camera->target, transform, camera->target);
     pel_matrix_direction(camera->up, transform, camera->up);
+    for (int n = 0; n < scene->light_count; n++) {
+        struct pel_light *light = &scene->lights[n];
+        pel_matrix_direction(light->direction, transform, light->direction);
+        pel_matrix_point(light->position, transform, light->position);
+    }
     for (int k = 0; k < scene->instance_count; k++) {
         struct pel_matrix *own = &scene->instances[k].transform;
         *own = pel_matrix_multiply(transform, own);

@@ -69,7 +69,7 @@ struct pel_transfer *scene_transfer_gentle(const double range[2], double opacity
 // transfer functions. The same seed gives the same scene. `small` keeps it cheap.
 struct pel_scene *scene_random(uint64_t seed, bool small);
 
-// Moves everything, camera included, by a rigid transform.
+// Moves everything, camera and lights included, by a rigid transform.
 void scene_move(struct pel_scene *scene, const struct pel_matrix *transform);
 
 // Puts the instances in another order: new instance k is old instance order[k].

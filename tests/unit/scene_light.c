@@ -1,0 +1,117 @@
+// scene_light.c - the `lights` of a scene and the `shading` of its volumes.
+#include "support/near.h"
+#include "support/scene_file.h"
+
+static struct pel_scene *load(const char *quoted, const char *const *overrides, int count) {
+    struct pel_scene *scene =
+        pel_scene_load(test_write_scene("light.json", quoted), overrides, count);
+    if (!scene)
+        fail_msg("%s", pel_error_message());
+    return scene;
+}
+
+static void test_defaults(void **state) {
+    (void)state;
+    struct pel_scene *scene =
+        load("{'volumes': [{" TEST_VOLUME "}, {" TEST_VOLUME ", 'shading': false}, {" TEST_VOLUME
+             ", 'shading': true}, {" TEST_VOLUME ", 'shading': {}}]}",
+             NULL, 0);
+    assert_int_equal(scene->light_count, 0);
+    assert_int_equal(scene->instances[0].material.shading, PEL_SHADING_NONE);
+    assert_int_equal(scene->instances[1].material.shading, PEL_SHADING_NONE);
+    for (int k = 2; k < 4; k++) {
+        const struct pel_material *material = &scene->instances[k].material;
+        assert_int_equal(material->shading, PEL_SHADING_BLINN_PHONG);
+        assert_near(material->ambient, 0.1, 0);
+        assert_near(material->diffuse, 0.7, 0);
+        assert_near(material->specular, 0.2, 0);
+        assert_near(material->shininess, 10, 0);
+        assert_false(material->one_sided);
+    }
+    pel_scene_destroy(scene);
+}
+
+static void test_material(void **state) {
+    (void)state;
+    const char *overrides[] = {"volumes.0.shading.ambient=0.4"};
+    struct pel_scene *scene = load("{'volumes': [{" TEST_VOLUME
+                                   ", 'shading': {'model': 'phong', 'diffuse': 0, 'specular': 2, "
+                                   "'shininess': 99, 'two_sided': false, 'comment': 'x'}}]}",
+                                   overrides, 1);
+    const struct pel_material *material = &scene->instances[0].material;
+    assert_int_equal(material->shading, PEL_SHADING_PHONG);
+    assert_near(material->ambient, 0.4, 0);
+    assert_near(material->diffuse, 0, 0);
+    assert_near(material->specular, 2, 0);
+    assert_near(material->shininess, 99, 0);
+    assert_true(material->one_sided);
+    pel_scene_destroy(scene);
+}
+
+static void test_lights(void **state) {
+    (void)state;
+    struct pel_scene *scene = load(
+        "{'lights': [{}, {'kind': 'camera', 'colour': '#ff0080', 'intensity': 0.5},"
+        "{'kind': 'directional', 'direction': [1, 0, -2]},"
+        "{'kind': 'point', 'position': [3, 4, 5], 'colour': [0.1, 0.2, 0.3]}]," TEST_VOLUMES "}",
+        NULL, 0);
+    assert_int_equal(scene->light_count, 4);
+    const struct pel_light *lights = scene->lights;
+    for (int n = 0; n < 4; n++)
+        assert_int_equal(lights[n].kind, n);
+    assert_near(lights[0].colour[1], 1, 0);
+    assert_near(lights[0].intensity, 1, 0);
+    assert_near(lights[1].colour[0], 1, 0);
+    assert_near(lights[1].colour[2], 128 / 255.0, 1e-12);
+    assert_near(lights[1].intensity, 0.5, 0);
+    assert_near(lights[2].direction[2], -2, 0);
+    assert_near(lights[3].position[1], 4, 0);
+    assert_near(lights[3].colour[2], 0.3, 0);
+    pel_scene_destroy(scene);
+}
+
+static const struct {
+    const char *members, *message;
+} bad[] = {
+    {"'lights': []", "lights: must have 1 to 8 elements, not 0"},
+    {"'lights': [{'kind': 'sun'}]",
+     "lights.0.kind: must be headlight, camera, directional or point, not \"sun\""},
+    {"'lights': [{'kind': 'directional'}]", "lights.0: needs 'direction'"},
+    {"'lights': [{}, {'kind': 'point'}]", "lights.1: needs 'position'"},
+    {"'lights': [{'position': [1, 2, 3]}]",
+     "lights.0.position: is of no use to this kind of light"},
+    {"'lights': [{'kind': 'directional', 'direction': [0, 0, 0]}]",
+     "lights.0.direction: has no length"},
+    {"'lights': [{'intensity': -1}]",
+     "lights.0.intensity: must be at least 0 and at most 1000, not -1"},
+    {"'lights': [{'color': 'red'}]", "lights.0.color: unknown key; did you mean 'colour'"},
+    {"'volumes': [{" TEST_VOLUME ", 'shading': 'on'}]",
+     "volumes.0.shading: must be true, false or an object"},
+    {"'volumes': [{" TEST_VOLUME ", 'shading': {'shininess': 0}}]",
+     "volumes.0.shading.shininess: must be at least 1 and at most 1000, not 0"},
+    {"'volumes': [{" TEST_VOLUME ", 'shading': {'model': 'gouraud'}}]",
+     "volumes.0.shading.model: must be blinn-phong or phong, not \"gouraud\""},
+};
+
+static void test_refusals(void **state) {
+    (void)state;
+    for (size_t n = 0; n < sizeof bad / sizeof *bad; n++) {
+        char text[512];
+        bool own_volumes = strstr(bad[n].members, "volumes") != NULL;
+        snprintf(text, sizeof text, "{%s%s}", bad[n].members, own_volumes ? "" : ", " TEST_VOLUMES);
+        assert_null(pel_scene_load(test_write_scene("bad.json", text), NULL, 0));
+        const char *got = strstr(pel_error_message(), ": ");
+        if (!got || strcmp(got + 2, bad[n].message) != 0)
+            fail_msg("%s\n  gives  %s\n  not    %s", text, pel_error_message(), bad[n].message);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_material),
+        cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, test_write_volumes, NULL);
+}
