@@ -102,7 +102,7 @@ static struct curves *make_curves(void) {
 }
 
 // The curve at a value that is clamped to 0..1; NaN counts as 0.
-static float read_curve(const float *curve, int cells, float value) {
+static inline float read_curve(const float *curve, int cells, float value) {
     if (!(value > 0))
         return 0;
     if (value >= 1)
@@ -112,44 +112,48 @@ static float read_curve(const float *curve, int cells, float value) {
     return curve[cell] + (x - (float)cell) * (curve[cell + 1] - curve[cell]);
 }
 
+// fmaxf and fminf without their care for NaN, which costs a call.
+static inline float greater(float a, float b) {
+    return a > b ? a : b;
+}
+
+static inline float lesser(float a, float b) {
+    return a < b ? a : b;
+}
+
 // Linear light of a premultiplied pixel, multiplied by its alpha.
-static void decode(float light[3], const float rgba[4], const struct curves *curves) {
-    float alpha = rgba[3];
-    for (int c = 0; c < 3; c++) {
-        float straight = alpha > 0 ? rgba[c] / alpha : 0;
-        light[c] = alpha * read_curve(curves->decode, DECODE_CELLS, straight);
-    }
+static inline void decode(float light[3], const float rgba[4], const struct curves *curves) {
+    float alpha = rgba[3], straighten = alpha > 0 ? 1 / alpha : 0;
+    for (int c = 0; c < 3; c++)
+        light[c] = alpha * read_curve(curves->decode, DECODE_CELLS, rgba[c] * straighten);
 }
 
-static void multiply(float out[3], const float matrix[3][6], const float eyes[6]) {
-    for (int row = 0; row < 3; row++) {
-        out[row] = 0;
-        for (int column = 0; column < 6; column++)
-            out[row] += matrix[row][column] * eyes[column];
-    }
+static inline float multiply(const float row[6], const float eyes[6]) {
+    return row[0] * eyes[0] + row[1] * eyes[1] + row[2] * eyes[2] + row[3] * eyes[3] +
+           row[4] * eyes[4] + row[5] * eyes[5];
 }
 
-// One pixel, `curves` being NULL when the matrix acts on stored values. The picture covers what
-// either eye's does.
-static void compose_pixel(float out[4], const float left[4], const float right[4],
-                          const float matrix[3][6], const struct curves *curves) {
-    float eyes[6];
-    out[3] = fmaxf(left[3], right[3]);
-    if (!curves) {
-        memcpy(eyes, left, 3 * sizeof *eyes);
-        memcpy(eyes + 3, right, 3 * sizeof *eyes);
-        multiply(out, matrix, eyes);
-        for (int c = 0; c < 3; c++)
-            out[c] = fminf(fmaxf(out[c], 0), out[3]);
-        return;
-    }
+// One pixel in linear light. The picture covers what either eye's does.
+static inline void compose_linear(float out[4], const float left[4], const float right[4],
+                                  const float matrix[3][6], const struct curves *curves) {
+    float eyes[6], alpha = greater(left[3], right[3]), straighten = alpha > 0 ? 1 / alpha : 0;
     decode(eyes, left, curves);
     decode(eyes + 3, right, curves);
-    multiply(out, matrix, eyes);
     for (int c = 0; c < 3; c++) {
-        float straight = out[3] > 0 ? out[c] / out[3] : 0;
-        out[c] = out[3] * read_curve(curves->encode, ENCODE_CELLS, straight);
+        float light = multiply(matrix[c], eyes) * straighten;
+        out[c] = alpha * read_curve(curves->encode, ENCODE_CELLS, light);
     }
+    out[3] = alpha;
+}
+
+// One pixel of values as they are stored.
+static inline void compose_stored(float out[4], const float left[4], const float right[4],
+                                  const float matrix[3][6]) {
+    const float eyes[6] = {left[0], left[1], left[2], right[0], right[1], right[2]};
+    float alpha = greater(left[3], right[3]);
+    for (int c = 0; c < 3; c++)
+        out[c] = lesser(greater(multiply(matrix[c], eyes), 0), alpha);
+    out[3] = alpha;
 }
 
 static bool check_matrix(const double matrix[3][6]) {
@@ -206,9 +210,11 @@ struct pel_image *pel_anaglyph_compose(const struct pel_stereo *stereo,
     struct pel_image *image =
         linear && !curves ? NULL : pel_image_create(left->width, left->height);
     size_t pixels = image ? (size_t)image->width * (size_t)image->height : 0;
-    for (size_t i = 0; i < pixels; i++)
-        compose_pixel(&image->rgba[4 * i], &left->rgba[4 * i], &right->rgba[4 * i], rounded,
-                      curves);
+    for (size_t i = 0; i < 4 * pixels; i += 4)
+        if (linear)
+            compose_linear(&image->rgba[i], &left->rgba[i], &right->rgba[i], rounded, curves);
+        else
+            compose_stored(&image->rgba[i], &left->rgba[i], &right->rgba[i], rounded);
     free(curves);
     return image;
 }
