@@ -273,6 +273,61 @@ struct pel_bounds {
 PEL_API bool pel_camera_fit(struct pel_camera *camera, const char *view,
                             const struct pel_bounds *bounds, double aspect);
 
+// ---- Stereo ------------------------------------------------------------------------------------
+
+// How the pictures of two eyes become one. docs/stereo.md has the formulae and their sources.
+enum pel_stereo_kind {
+    PEL_STEREO_NONE, // one eye: the scene's camera
+    // Anaglyphs: each lens of the glasses, the left one named first, shows its eye one picture.
+    PEL_STEREO_TRUE_RED_CYAN,
+    PEL_STEREO_TRUE_GREEN_MAGENTA,
+    PEL_STEREO_TRUE_AMBER_BLUE,
+    PEL_STEREO_GREY_RED_CYAN,
+    PEL_STEREO_GREY_GREEN_MAGENTA,
+    PEL_STEREO_GREY_AMBER_BLUE,
+    PEL_STEREO_COLOUR_RED_CYAN,
+    PEL_STEREO_COLOUR_GREEN_MAGENTA,
+    PEL_STEREO_COLOUR_AMBER_BLUE,
+    PEL_STEREO_HALF_COLOUR_RED_CYAN,
+    PEL_STEREO_HALF_COLOUR_GREEN_MAGENTA,
+    PEL_STEREO_HALF_COLOUR_AMBER_BLUE,
+    PEL_STEREO_OPTIMISED_RED_CYAN,
+    PEL_STEREO_OPTIMISED_GREEN_MAGENTA,
+    PEL_STEREO_OPTIMISED_AMBER_BLUE,
+    PEL_STEREO_DUBOIS_RED_CYAN,
+    PEL_STEREO_DUBOIS_GREEN_MAGENTA,
+    PEL_STEREO_DUBOIS_AMBER_BLUE,
+    PEL_STEREO_RED_BLUE,
+    PEL_STEREO_RED_GREEN,
+    PEL_STEREO_THESIS, // Romero's average of a cyan left and a red right picture, half as bright
+    PEL_STEREO_MATRIX, // the user's own
+    // Both pictures in one, the left eye's first; `swap` gives the other order.
+    PEL_STEREO_SIDE_BY_SIDE,      // twice as wide
+    PEL_STEREO_SIDE_BY_SIDE_HALF, // each squeezed to half its width
+    PEL_STEREO_TOP_BOTTOM,        // twice as high
+    PEL_STEREO_TOP_BOTTOM_HALF,   // each squeezed to half its height
+    PEL_STEREO_ROW_INTERLACED,    // the left eye has rows 0, 2, 4, ... from the top
+    PEL_STEREO_COLUMN_INTERLACED, // ... columns from the left
+    PEL_STEREO_CHECKERBOARD,      // ... pixels whose column and row add up to an even number
+    PEL_STEREO_TWO_FILES,         // as side by side, for a caller who saves each eye by itself
+};
+
+// Two cameras in place of the scene's, left and right of it. Zero-initialised: none.
+struct pel_stereo {
+    enum pel_stereo_kind kind;
+    double separation_mm;  // of the two eyes, >= 0; 0 = automatic
+    double convergence_mm; // distance along the view at which both eyes see things in one place of
+                           // the picture; 0 = automatic
+    bool flat;             // no separation at all: both eyes see the same
+    bool toe_in;           // turn the cameras inwards instead of moving their windows
+    bool swap;           // the left eye's picture goes where the right one's would, and vice versa
+    double matrix[3][6]; // of PEL_STEREO_MATRIX: linear red, green and blue from the left eye's
+                         // and the right eye's
+};
+
+// The names of the kinds, "none" first, in the order of the enum; the list ends with NULL.
+PEL_API const char *const *pel_stereo_names(void);
+
 // ---- Rigid transforms --------------------------------------------------------------------------
 
 // Reads a rigid transform from world to world (RAS): an ITK .tfm (text, Euler3D, VersorRigid3D or
@@ -395,6 +450,7 @@ struct pel_scene {
     int light_count; // 0: one white headlight
     struct pel_light lights[PEL_LIGHT_MAX];
     struct pel_render_settings render;
+    struct pel_stereo stereo;
     struct pel_output_settings output;
     char *text; // owned; the scene as JSON after all overrides, as it goes into the picture
 };
@@ -414,6 +470,15 @@ PEL_API void pel_scene_destroy(struct pel_scene *scene);
 PEL_API void pel_instance_bounds(const struct pel_scene *scene, int instance,
                                  struct pel_bounds *bounds);
 PEL_API bool pel_scene_bounds(const struct pel_scene *scene, struct pel_bounds *bounds);
+
+// The cameras whose pictures go into the left and the right eye's place (`swap` exchanges them),
+// and the separation and convergence they were made with, which are chosen from the depth of the
+// visible volumes where the scene leaves them open. `used` may be NULL. Cameras are moved half the
+// separation to either side and keep their direction; their windows shift so that they agree at the
+// convergence distance. With `toe_in`, or when orthographic, they turn to the point at that
+// distance instead. Fails (ARGUMENT) when the scene's camera or a length is no such thing.
+PEL_API bool pel_stereo_cameras(const struct pel_scene *scene, struct pel_camera cameras[2],
+                                struct pel_stereo *used);
 
 // ---- Devices -----------------------------------------------------------------------------------
 
@@ -470,6 +535,13 @@ struct pel_render_statistics {
     uint64_t uploaded_bytes; // sent to the device for this frame
     enum pel_skip skip;
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
+    // Of two eyes; all of the above is then their sum.
+    struct {
+        double separation_mm, convergence_mm; // as they were used
+        double eye_ms[2];                     // the whole frame of each, the first one's first
+        double compose_ms;
+        uint64_t eye_samples[2];
+    } stereo;
 };
 
 // Called between batches of tiles with the finished share, 0..1. Return false to abandon the frame.
@@ -484,14 +556,29 @@ struct pel_render_options {
 PEL_API struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *options);
 PEL_API void pel_renderer_destroy(struct pel_renderer *renderer);
 
-// Renders one picture of the scene, background included. Voxels, tables and kernels stay on the
-// device for the next call, which uploads only what changed. Refuses (DEVICE, with needed and
-// available bytes) before anything is allocated when the scene fits nowhere. `statistics` may be
-// NULL.
+// Renders one picture of the scene, background included; of a scene in stereo both eyes composed.
+// Voxels, tables and kernels stay on the device for the next call, which uploads only what changed.
+// Refuses (DEVICE, with needed and available bytes) before anything is allocated when the scene
+// fits nowhere. `statistics` may be NULL.
 PEL_API struct pel_image *pel_renderer_render(struct pel_renderer *renderer,
                                               const struct pel_scene *scene,
                                               const struct pel_render_options *options,
                                               struct pel_render_statistics *statistics);
+
+// Renders the pictures of both eyes, each of the scene's size; the second one uploads nothing but
+// its camera. A scene without stereo gives the same picture twice. The caller owns both; on failure
+// there is neither.
+PEL_API bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                      const struct pel_render_options *options,
+                                      struct pel_render_statistics *statistics,
+                                      struct pel_image *eyes[2]);
+
+// Makes one picture of two of the same size, as `stereo->kind` says (`swap` is the cameras'
+// matter). ARGUMENT when the sizes differ, when a squeezed side is odd, or when a matrix is not
+// finite. With PEL_STEREO_NONE it is a copy of the left one.
+PEL_API struct pel_image *pel_stereo_compose(const struct pel_stereo *stereo,
+                                             const struct pel_image *left,
+                                             const struct pel_image *right);
 
 // ---- Images ------------------------------------------------------------------------------------
 

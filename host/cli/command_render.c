@@ -15,9 +15,10 @@
 struct run {
     struct pel_scene *scene;
     struct pel_renderer *renderer;
-    struct pel_image *image;
+    struct pel_image *images[2]; // the second one of two-files only
     struct pel_render_statistics statistics;
-    char picture[4096];
+    char pictures[2][4096];
+    int picture_count;
     double load_ms, save_ms, total_ms;
 };
 
@@ -62,23 +63,54 @@ static bool is_same_file(const char *a, const char *b) {
            status_a.st_dev == status_b.st_dev && status_a.st_ino == status_b.st_ino;
 }
 
-// Decides where the picture goes, before any work is done for it.
-static int choose_picture(struct run *run, const struct render_options *options) {
-    if (options->output)
-        snprintf(run->picture, sizeof run->picture, "%s", options->output);
-    else if (run->scene->output.path[0])
-        snprintf(run->picture, sizeof run->picture, "%s", run->scene->output.path);
-    else
-        default_picture(run->picture, sizeof run->picture, options->inputs[0]);
-    if (options->json && strcmp(run->picture, "-") == 0)
-        return cli_fail(PEL_ERROR_ARGUMENT, "--json and the picture both want standard output");
+// "head.png" becomes "head_left.png" and "head_right.png".
+static void name_eyes(struct run *run) {
+    char *name = run->pictures[0];
+    char whole[sizeof run->pictures[0]];
+    memcpy(whole, name, sizeof whole);
+    const char *slash = strrchr(whole, '/'), *dot = strrchr(whole, '.');
+    if (!dot || (slash && dot < slash))
+        dot = whole + strlen(whole);
+    // A name too long to take the addition is cut, and then refused for want of an extension.
+    for (int i = 0; i < 2; i++)
+        snprintf(run->pictures[i], sizeof run->pictures[i], "%.*s_%s%s", (int)(dot - whole), whole,
+                 i == 0 ? "left" : "right", dot);
+    run->picture_count = 2;
+}
+
+static int check_picture(const char *picture, const struct render_options *options) {
     for (int i = 0; i < options->input_count; i++)
-        if (is_same_file(run->picture, options->inputs[i]))
+        if (is_same_file(picture, options->inputs[i]))
             return cli_fail(PEL_ERROR_ARGUMENT,
                             "%s: the picture would overwrite its input; name "
                             "another file with -o",
-                            run->picture);
-    return pel_image_check_path(run->picture) ? PEL_OK : cli_fail_library();
+                            picture);
+    return pel_image_check_path(picture) ? PEL_OK : cli_fail_library();
+}
+
+// Decides where the picture goes, or the two of them, before any work is done for it.
+static int choose_pictures(struct run *run, const struct render_options *options) {
+    char *picture = run->pictures[0];
+    size_t bytes = sizeof run->pictures[0];
+    run->picture_count = 1;
+    if (options->output)
+        snprintf(picture, bytes, "%s", options->output);
+    else if (run->scene->output.path[0])
+        snprintf(picture, bytes, "%s", run->scene->output.path);
+    else
+        default_picture(picture, bytes, options->inputs[0]);
+    bool piped = strcmp(picture, "-") == 0;
+    if (options->json && piped)
+        return cli_fail(PEL_ERROR_ARGUMENT, "--json and the picture both want standard output");
+    if (run->scene->stereo.kind == PEL_STEREO_TWO_FILES) {
+        if (piped)
+            return cli_fail(PEL_ERROR_ARGUMENT, "two files cannot go to standard output");
+        name_eyes(run);
+    }
+    int status = PEL_OK;
+    for (int i = 0; i < run->picture_count && !status; i++)
+        status = check_picture(run->pictures[i], options);
+    return status;
 }
 
 static int render(struct run *run, const struct render_options *options) {
@@ -87,19 +119,19 @@ static int render(struct run *run, const struct render_options *options) {
     run->load_ms = report_clock_ms() - begin_ms;
     if (!run->scene)
         return cli_fail_library();
-    int status = choose_picture(run, options);
+    int status = choose_pictures(run, options);
     if (status)
         return status;
     struct progress progress;
     progress_begin(&progress, options->quiet);
+    const struct pel_render_options how = {.progress = progress_update, .user = &progress};
     run->renderer = pel_renderer_create(&options->renderer);
-    if (run->renderer)
-        run->image = pel_renderer_render(
-            run->renderer, run->scene,
-            &(struct pel_render_options){.progress = progress_update, .user = &progress},
-            &run->statistics);
+    if (run->renderer && run->picture_count == 2)
+        pel_renderer_render_eyes(run->renderer, run->scene, &how, &run->statistics, run->images);
+    else if (run->renderer)
+        run->images[0] = pel_renderer_render(run->renderer, run->scene, &how, &run->statistics);
     progress_end(&progress);
-    return run->image ? PEL_OK : cli_fail_library();
+    return run->images[0] ? PEL_OK : cli_fail_library();
 }
 
 // The camera as the scene format writes it; memory to free(), or NULL.
@@ -139,18 +171,41 @@ static int save(struct run *run) {
         .texts = texts,
         .text_count = sizeof texts / sizeof *texts,
     };
-    bool good = pel_image_save(run->image, run->picture, &options);
+    bool good = true;
+    for (int i = 0; i < run->picture_count && good; i++)
+        good = pel_image_save(run->images[i], run->pictures[i], &options);
     free(camera);
     run->save_ms = report_clock_ms() - begin_ms;
     return good ? PEL_OK : cli_fail_library();
 }
 
+// What the second eye cost: the time of both and of composing them, over that of the first.
+static json_t *describe_stereo(const struct run *run) {
+    const struct pel_render_statistics *statistics = &run->statistics;
+    const double *eye_ms = statistics->stereo.eye_ms;
+    const uint64_t *samples = statistics->stereo.eye_samples;
+    json_t *object = json_object();
+    json_object_set_new(object, "kind", json_string(pel_stereo_names()[run->scene->stereo.kind]));
+    json_object_set_new(object, "separation_mm", report_number(statistics->stereo.separation_mm));
+    json_object_set_new(object, "convergence_mm", report_number(statistics->stereo.convergence_mm));
+    json_object_set_new(object, "eye_ms", report_numbers(eye_ms, 2));
+    json_object_set_new(object, "eye_samples",
+                        json_pack("[I, I]", (json_int_t)samples[0], (json_int_t)samples[1]));
+    json_object_set_new(object, "compose_ms", report_number(statistics->stereo.compose_ms));
+    json_object_set_new(
+        object, "relative_cost",
+        report_number((eye_ms[0] + eye_ms[1] + statistics->stereo.compose_ms) / eye_ms[0]));
+    return object;
+}
+
 static int print_json(const struct run *run) {
     const struct pel_render_statistics *statistics = &run->statistics;
     json_t *object = json_object();
-    json_object_set_new(object, "picture", report_text(run->picture));
-    json_object_set_new(object, "width", json_integer(run->image->width));
-    json_object_set_new(object, "height", json_integer(run->image->height));
+    json_object_set_new(object, "picture", report_text(run->pictures[0]));
+    if (run->picture_count == 2)
+        json_object_set_new(object, "right_picture", report_text(run->pictures[1]));
+    json_object_set_new(object, "width", json_integer(run->images[0]->width));
+    json_object_set_new(object, "height", json_integer(run->images[0]->height));
     json_object_set_new(object, "device", report_text(statistics->device));
     json_object_set_new(object, "driver", report_text(statistics->driver));
     json_object_set_new(object, "reader", json_string(report_reader(statistics->reader)));
@@ -176,6 +231,8 @@ static int print_json(const struct run *run) {
     };
     for (size_t i = 0; i < sizeof times / sizeof *times; i++)
         json_object_set_new(object, times[i].name, report_number(times[i].ms));
+    if (run->scene->stereo.kind != PEL_STEREO_NONE)
+        json_object_set_new(object, "stereo", describe_stereo(run));
     return report_json(object);
 }
 
@@ -193,11 +250,14 @@ int command_render(int argc, char **argv) {
     run.total_ms = report_clock_ms() - begin_ms;
     if (!status && options.json)
         status = print_json(&run);
-    else if (!status && !options.quiet && isatty(STDERR_FILENO) && strcmp(run.picture, "-") != 0)
-        fprintf(stderr, "pellucid: %s: %d x %d pixels in %.2f s on %s\n", run.picture,
-                run.image->width, run.image->height, run.total_ms / 1e3, run.statistics.device);
+    else if (!status && !options.quiet && isatty(STDERR_FILENO) &&
+             strcmp(run.pictures[0], "-") != 0)
+        fprintf(stderr, "pellucid: %s: %d x %d pixels in %.2f s on %s\n", run.pictures[0],
+                run.images[0]->width, run.images[0]->height, run.total_ms / 1e3,
+                run.statistics.device);
 done:
-    pel_image_destroy(run.image);
+    pel_image_destroy(run.images[0]);
+    pel_image_destroy(run.images[1]);
     pel_renderer_destroy(run.renderer);
     pel_scene_destroy(run.scene);
     render_options_finish(&options);

@@ -19,6 +19,11 @@ enum {
     KEY_DENSITY,
     KEY_SHADING,
     KEY_BACKGROUND,
+    KEY_STEREO,
+    KEY_STEREO_SEPARATION,
+    KEY_STEREO_CONVERGENCE,
+    KEY_STEREO_SWAP,
+    KEY_STEREO_TOE_IN,
     KEY_TRANSFER,
     KEY_READER,
     KEY_LANES,
@@ -46,6 +51,18 @@ static const struct argp_option argp_options[] = {
      "anterior, posterior, left, right, superior, inferior or oblique; or keys of the scene's "
      "camera, such as eye=0,-400,0,target=0,0,0,fov=30",
      0},
+    {"stereo", KEY_STEREO, "KIND", 0,
+     "Render for two eyes: an anaglyph, such as dubois-red-cyan, half-colour-green-magenta or "
+     "grey-amber-blue; side-by-side, top-bottom (or -half), row-interlaced, column-interlaced, "
+     "checkerboard; or two-files, NAME_left and NAME_right",
+     0},
+    {"stereo-separation", KEY_STEREO_SEPARATION, "MM", 0,
+     "Distance of the eyes (default: automatic, comfortable for the scene's depth)", 0},
+    {"stereo-convergence", KEY_STEREO_CONVERGENCE, "MM", 0,
+     "Distance at which both eyes' pictures agree (default: automatic)", 0},
+    {"stereo-swap", KEY_STEREO_SWAP, NULL, 0, "Exchange the eyes", 0},
+    {"stereo-toe-in", KEY_STEREO_TOE_IN, NULL, 0,
+     "Turn the cameras inwards instead of shifting their windows", 0},
     {0, 0, NULL, 0, "The volumes, all of them:", 3},
     {"transfer", KEY_TRANSFER, "PRESET|FILE", 0, "Transfer function", 0},
     {"density", KEY_DENSITY, "X", 0, "Multiplies the extinction", 0},
@@ -113,6 +130,15 @@ static bool add_integer(struct render_options *options, const char *option, cons
     return true;
 }
 
+// Millimetres, or "automatic".
+static bool add_length(struct render_options *options, const char *option, const char *key,
+                       const char *text) {
+    if (strcmp(text, "automatic") != 0)
+        return add_number(options, option, key, text);
+    overrides_add_text(&options->overrides, key, text);
+    return true;
+}
+
 static void add_background(struct render_options *options, const char *text) {
     char list[128];
     snprintf(list, sizeof list, "[%s]", text);
@@ -153,6 +179,31 @@ static bool add_set(struct render_options *options, const char *text) {
     snprintf(key, sizeof key, "%.*s", (int)(equals - text), text);
     overrides_add(&options->overrides, key, equals + 1);
     return true;
+}
+
+// Keys of the scene's stereo; ARGP_ERR_UNKNOWN for the other options.
+static error_t parse_stereo_key(int key, const char *argument, struct render_options *options) {
+    bool good = true;
+    switch (key) {
+    case KEY_STEREO:
+        overrides_add_text(&options->overrides, "stereo.kind", argument);
+        break;
+    case KEY_STEREO_SEPARATION:
+        good = add_length(options, "--stereo-separation", "stereo.separation", argument);
+        break;
+    case KEY_STEREO_CONVERGENCE:
+        good = add_length(options, "--stereo-convergence", "stereo.convergence", argument);
+        break;
+    case KEY_STEREO_SWAP:
+        overrides_add(&options->overrides, "stereo.swap", "true");
+        break;
+    case KEY_STEREO_TOE_IN:
+        overrides_add(&options->overrides, "stereo.toe_in", "true");
+        break;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+    return good ? 0 : PEL_ERROR_ARGUMENT;
 }
 
 // Keys of the scene; ARGP_ERR_UNKNOWN for the other options.
@@ -205,7 +256,7 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         good = add_set(options, argument);
         break;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return parse_stereo_key(key, argument, options);
     }
     return good ? 0 : PEL_ERROR_ARGUMENT;
 }
@@ -259,7 +310,8 @@ int render_options_parse(struct render_options *options, int argc, char **argv) 
                "  pellucid render head.nii.gz\n"
                "  pellucid render head.nii.gz brain.nii.gz --camera left -o both.png\n"
                "  pellucid render scene.json --size 1920x1080 --step 0.25 --set camera.fov=20\n"
-               "  pellucid render ct.nrrd --transfer ct-bone --background white -o - | display\n",
+               "  pellucid render ct.nrrd --transfer ct-bone --background white -o - | display\n"
+               "  pellucid render ct.nrrd --stereo dubois-red-cyan -o anaglyph.png\n",
     };
     *options = (struct render_options){0};
     return argp_parse(&argp, argc, argv, 0, NULL, options);

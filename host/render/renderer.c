@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "device/device.h"
+#include "render/frame.h"
 #include "render/mirror.h"
 #include "render/occupancy.h"
 #include "render/residency.h"
@@ -298,9 +299,9 @@ static struct pel_image *render_background(const struct pel_world *world) {
     return image;
 }
 
-struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struct pel_scene *scene,
-                                      const struct pel_render_options *options,
-                                      struct pel_render_statistics *statistics) {
+struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                   const struct pel_render_options *options,
+                                   struct pel_render_statistics *statistics) {
     double mark = now_ms();
     const struct pel_device_info *info = pel_device_describe(renderer->device);
     struct pel_render_statistics unwanted;

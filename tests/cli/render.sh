@@ -60,6 +60,36 @@ for option in '--mix over' '--filter nearest' '--termination 1' '--phase 0.25' '
     expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" $option -o option.png
 done
 
+# Two eyes: sizes that follow from the kind; two files; what it cost.
+for kind in side-by-side top-bottom side-by-side-half colour-red-cyan matrix; do
+    expect 0 '' render data/box.nii.gz "${small[@]}" --stereo "$kind" -o "stereo_$kind.png" \
+        --set 'stereo.matrix=[[1,0,0,0,0,0],[0,0,0,0,1,0],[0,0,0,0,0,1]]'
+done
+png stereo_side-by-side.png '(width, height) == (64, 24)'
+png stereo_top-bottom.png '(width, height) == (32, 48)'
+png stereo_side-by-side-half.png '(width, height) == (32, 24)'
+png stereo_matrix.png 'width == 32 and "matrix" in texts["scene"]'
+expect 0 '' render data/box.nii.gz "${small[@]}" --stereo two-files -o eyes.png --json
+check_json 'x["picture"] == "eyes_left.png" and x["right_picture"] == "eyes_right.png"'
+check_json 'x["rays"] == 2 * 32 * 24 and x["stereo"]["kind"] == "two-files" and x["stereo"]["separation_mm"] > 0'
+check_json 'sum(x["stereo"]["eye_samples"]) == x["samples"] and x["stereo"]["relative_cost"] > 1'
+png eyes_left.png 'width == 32'
+png eyes_right.png 'width == 32'
+[ -e eyes.png ] && complain "two-files wrote a third"
+expect 0 '' render data/box.nii.gz "${small[@]}" --stereo two-files --stereo-swap -o swapped.ppm
+expect 0 '' render data/box.nii.gz "${small[@]}" --stereo two-files -o eyes.ppm
+cmp -s eyes_left.ppm swapped_right.ppm && cmp -s eyes_right.ppm swapped_left.ppm || complain "eyes are not swapped"
+cmp -s eyes_left.ppm eyes_right.ppm && complain "both eyes see the same"
+expect 0 '' render data/box.nii.gz "${small[@]}" -o mono.ppm
+expect 0 '' render data/box.nii.gz "${small[@]}" --stereo two-files --stereo-separation 0 -o flat.ppm
+cmp -s flat_left.ppm mono.ppm && cmp -s flat_right.ppm mono.ppm || complain "no separation, but the eyes differ"
+expect 0 '' render data/box.nii.gz "${small[@]}" --stereo checkerboard --stereo-separation 3 --stereo-convergence 70 \
+    --stereo-toe-in -o given.png --json
+check_json 'x["stereo"]["separation_mm"] == 3 and x["stereo"]["convergence_mm"] == 70'
+expect 2 '^pellucid: two files cannot go to standard output' render data/box.nii.gz --stereo two-files -o -
+expect 2 '^pellucid: .*stereo\.kind.*dubois-red-cyan' render data/box.nii.gz --stereo dubois-red-cyn
+expect 2 '^pellucid: .*stereo\.separation' render data/box.nii.gz --stereo red-blue --stereo-separation -3
+
 # Images are read with the device's own filter: the same picture within its 8-bit weights, where there are images.
 if "$PELLUCID" devices | sed -n '/^\*/,/^[ *] [0-9]/p' | grep -q '3-D images *up to'; then
     expect 0 '' render data/box.nii.gz "${small[@]}" --reader image -o image.ppm

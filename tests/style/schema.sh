@@ -23,7 +23,7 @@ defs = schema["$defs"]
 # Keys of the parser: tables named X_keys; names it accepts: tables named X_names.
 tables = {}
 for path in sorted(glob.glob("host/world/scene_*.c") + glob.glob("host/transfer/*.c") +
-                   glob.glob("host/volume/generate.c")):
+                   glob.glob("host/volume/generate.c") + glob.glob("host/camera/stereo.c")):
     for name, body in re.findall(r"const char \*const (\w+)\[\] = \{([^}]*)\}", open(path).read()):
         tables[path.split("/")[-1] + ":" + name] = re.findall(r'"([^"]+)"', body)
 
@@ -48,6 +48,7 @@ pairs = {
     "transfer_file.c:known_keys": (own_transfer, "transfer"),
     "scene_read_settings.c:render_keys": (defs["render"], "render"),
     "scene_read_settings.c:output_keys": (defs["output"], "output"),
+    "scene_read_stereo.c:stereo_keys": (defs["stereo"], "stereo"),
 }
 readme = open("scenes/README.md").read()
 sections = {s.split("\n")[0]: s for s in re.split(r"^## ", readme, flags=re.M)[1:]}
@@ -78,7 +79,7 @@ def enumerations(node):
             yield from enumerations(value)
 known = set(enumerations(schema))
 for table, names in tables.items():
-    if re.match(r"scene_.*_names$|preset.c:names$|generate.c:names$", table):
+    if re.match(r"scene_.*_names$|preset.c:names$|generate.c:names$|stereo.c:stereo_names$", table):
         check(frozenset(names) in known, table, "is no enumeration of the schema:", names)
 
 # Scenes and examples follow the schema.
@@ -95,7 +96,7 @@ def place(section, key, value):
     volume = {"file": "a"}
     holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"}, "raw": {"dims": [1, 1, 1]},
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
-              "render": {}, "output": {}, "light": {}, "shading": {}}[section]
+               "render": {}, "stereo": {}, "output": {}, "light": {}, "shading": {}}[section]
     if section == "transform":
         holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
                        "comment": {"file": "a"}}.get(key, {}))
@@ -115,7 +116,7 @@ def place(section, key, value):
         return {"volumes": [volume], "lights": [holder]}
     elif section in ("raw", "transform", "transfer", "shading"):
         volume[section] = holder
-    return {"volumes": [volume], **(inner if section in ("camera", "render", "output") else {})}
+    return {"volumes": [volume], **(inner if section in ("camera", "render", "stereo", "output") else {})}
 for _, section in pairs.values():
     if not section:
         continue
@@ -127,10 +128,12 @@ for _, section in pairs.values():
 # The schema is strict.
 good = {"volumes": [{"file": "a", "transfer": {"preset": "hot"}, "raw": {"dims": [1, 1, 1]},
                      "transform": {"rotate": {"axis": "x", "degrees": 1}}, "shading": {}},
-                    {"generate": {"kind": "box"}}], "camera": {}, "lights": [{}], "render": {}, "output": {}}
+                    {"generate": {"kind": "box"}}], "camera": {}, "lights": [{}], "render": {}, "stereo": {},
+        "output": {}}
 check(validator.is_valid(good), "a good scene is refused")
 for path in ([], ["volumes", 0], ["volumes", 0, "transfer"], ["volumes", 0, "raw"], ["volumes", 0, "transform"],
-             ["volumes", 0, "transform", "rotate"], ["volumes", 1, "generate"], ["volumes", 0, "shading"], ["lights", 0], ["camera"], ["render"], ["output"]):
+             ["volumes", 0, "transform", "rotate"], ["volumes", 1, "generate"], ["volumes", 0, "shading"],
+             ["lights", 0], ["camera"], ["render"], ["stereo"], ["output"]):
     bad = copy.deepcopy(good)
     at = bad
     for step in path:
@@ -140,7 +143,8 @@ for path in ([], ["volumes", 0], ["volumes", 0, "transfer"], ["volumes", 0, "raw
 for key, value in (("volumes", []), ("volumes", [{}]), ("volumes", [{"file": "a", "generate": {"kind": "box"}}]),
                    ("volumes", [{"generate": {"kind": "box"}, "time": 1}]), ("background", "pink"),
                    ("lights", []), ("lights", [{}] * 9), ("lights", [{"kind": "point"}]),
-                   ("lights", [{"direction": [0, 0, 1]}]), ("camera", {"fov": 180}), ("render", {"step": 0}), ("output", {"depth": 12})):
+                   ("lights", [{"direction": [0, 0, 1]}]), ("camera", {"fov": 180}), ("render", {"step": 0}),
+                   ("stereo", {"kind": "3d"}), ("stereo", {"convergence": 0}), ("output", {"depth": 12})):
     check(not validator.is_valid({**good, key: value}), "the schema takes", key, value)
 
 print("\n".join(failures) or "%d scenes and examples, %d tables of keys and names" % (len(scenes), len(tables)))

@@ -87,11 +87,40 @@ void judge_check(const struct judge *judge, const struct pel_image *picture,
              255 * right[2], 255 * right[3], 255 * worst_bound);
 }
 
+// Each eye has to be what the reference sees from its camera, and the picture what they compose.
+static struct pel_image *judge_stereo(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                      struct pel_render_statistics *statistics, const char *title) {
+    struct pel_camera cameras[2];
+    struct pel_image *eyes[2];
+    if (!pel_stereo_cameras(scene, cameras, NULL) ||
+        !pel_renderer_render_eyes(renderer, scene, NULL, statistics, eyes))
+        fail_msg("%s: no eyes: %s", title, pel_error_message());
+    struct pel_scene seen = *scene;
+    seen.stereo = (struct pel_stereo){0};
+    for (int i = 0; i < 2; i++) {
+        seen.camera = cameras[i];
+        struct judge *judge = judge_create(&seen);
+        judge_check(judge, eyes[i], statistics, title);
+        judge_destroy(judge);
+    }
+    struct pel_image *composed = pel_stereo_compose(&scene->stereo, eyes[0], eyes[1]);
+    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, statistics);
+    if (!composed || !picture)
+        fail_msg("%s: no picture: %s", title, pel_error_message());
+    assert_pictures_equal(picture, composed, title);
+    pel_image_destroy(eyes[0]);
+    pel_image_destroy(eyes[1]);
+    pel_image_destroy(composed);
+    return picture;
+}
+
 struct pel_image *judge_render(struct pel_renderer *renderer, const struct pel_scene *scene,
                                struct pel_render_statistics *statistics, const char *title) {
     struct pel_render_statistics own;
     if (!statistics)
         statistics = &own;
+    if (scene->stereo.kind != PEL_STEREO_NONE)
+        return judge_stereo(renderer, scene, statistics, title);
     struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, statistics);
     struct judge *judge = judge_create(scene);
     judge_check(judge, picture, statistics, title);

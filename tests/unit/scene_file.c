@@ -56,6 +56,30 @@ static void test_defaults(void **state) {
     pel_scene_destroy(scene);
 }
 
+static void test_stereo(void **state) {
+    (void)state;
+    struct pel_scene *scene = load("{" TEST_VOLUMES "}");
+    assert_int_equal(scene->stereo.kind, PEL_STEREO_NONE);
+    pel_scene_destroy(scene);
+
+    scene = load("{'stereo': {'kind': 'dubois-green-magenta', 'separation': 'automatic', "
+                 "'convergence': 300, 'swap': true, 'toe_in': true}, " TEST_VOLUMES "}");
+    assert_int_equal(scene->stereo.kind, PEL_STEREO_DUBOIS_GREEN_MAGENTA);
+    assert_float_equal(scene->stereo.separation_mm, 0, 0);
+    assert_float_equal(scene->stereo.convergence_mm, 300, 0);
+    assert_true(scene->stereo.swap && scene->stereo.toe_in && !scene->stereo.flat);
+    pel_scene_destroy(scene);
+
+    // A separation of 0 is one, and not the automatic one.
+    scene = load("{'stereo': {'kind': 'matrix', 'separation': 0, 'matrix': [[1, 0, 0, 0, 0, 0], "
+                 "[0, 0, 0, 0, 1, 0], [0, -0.5, 0, 0, 0, 1.5]]}, " TEST_VOLUMES "}");
+    assert_true(scene->stereo.flat);
+    assert_float_equal(scene->stereo.matrix[1][4], 1, 0);
+    assert_float_equal(scene->stereo.matrix[2][1], -0.5, 0);
+    assert_float_equal(scene->stereo.matrix[2][5], 1.5, 0);
+    pel_scene_destroy(scene);
+}
+
 static void test_settings(void **state) {
     (void)state;
     struct pel_scene *scene =
@@ -336,12 +360,12 @@ static void test_files(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_defaults),    cmocka_unit_test(test_settings),
-        cmocka_unit_test(test_backgrounds), cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_transforms),  cmocka_unit_test(test_volume_keys),
-        cmocka_unit_test(test_bounds),      cmocka_unit_test(test_sharing),
-        cmocka_unit_test(test_overrides),   cmocka_unit_test(test_generated),
-        cmocka_unit_test(test_other_files), cmocka_unit_test(test_fsl),
-        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_stereo),      cmocka_unit_test(test_backgrounds),
+        cmocka_unit_test(test_camera),      cmocka_unit_test(test_transforms),
+        cmocka_unit_test(test_volume_keys), cmocka_unit_test(test_bounds),
+        cmocka_unit_test(test_sharing),     cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_generated),   cmocka_unit_test(test_other_files),
+        cmocka_unit_test(test_fsl),         cmocka_unit_test(test_files),
     };
     return cmocka_run_group_tests(tests, test_write_volumes, NULL);
 }
