@@ -297,7 +297,7 @@ enum pel_extent { PEL_EXTENT_CELL, PEL_EXTENT_POINT };
 
 enum pel_filter { PEL_FILTER_LINEAR, PEL_FILTER_NEAREST };
 
-// How overlapping volumes share one sample. See docs/mixing.md for the formulae.
+// How overlapping volumes share one sample. docs/picture.md has the formulae.
 enum pel_mixing {
     PEL_MIX_SUM,  // extinctions add, colour is the extinction-weighted mean; order does not matter
     PEL_MIX_OVER, // blended front to back at each sample in the order of the list
@@ -433,7 +433,8 @@ struct pel_render_statistics {
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
 };
 
-// Called between batches of tiles with the finished share, 0..1. Return false to abandon the frame.
+// Called between batches of tiles with the finished share, 0..1. Return false to abandon the frame:
+// pel_renderer_render then fails (ARGUMENT), and the next frame is as if nothing had been.
 typedef bool (*pel_progress_callback)(double finished, void *user);
 
 struct pel_render_options {
@@ -447,8 +448,9 @@ PEL_API void pel_renderer_destroy(struct pel_renderer *renderer);
 
 // Renders one picture of the scene, background included. Voxels, tables and kernels stay on the
 // device for the next call, which uploads only what changed. Refuses (DEVICE, with needed and
-// available bytes) before anything is allocated when the scene fits nowhere. `statistics` may be
-// NULL.
+// available bytes) before anything is allocated on it when the scene fits nowhere, settings that
+// make no sense (ARGUMENT), and images on a device without them (UNSUPPORTED). `options` and
+// `statistics` may be NULL. The caller owns the image.
 PEL_API struct pel_image *pel_renderer_render(struct pel_renderer *renderer,
                                               const struct pel_scene *scene,
                                               const struct pel_render_options *options,
