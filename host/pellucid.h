@@ -544,7 +544,8 @@ struct pel_render_statistics {
     } stereo;
 };
 
-// Called between batches of tiles with the finished share, 0..1. Return false to abandon the frame.
+// Called between batches of tiles with the finished share, 0..1. Return false to abandon the frame:
+// pel_renderer_render then fails (ARGUMENT), and the next frame is as if nothing had been.
 typedef bool (*pel_progress_callback)(double finished, void *user);
 
 struct pel_render_options {
@@ -558,8 +559,9 @@ PEL_API void pel_renderer_destroy(struct pel_renderer *renderer);
 
 // Renders one picture of the scene, background included; of a scene in stereo both eyes composed.
 // Voxels, tables and kernels stay on the device for the next call, which uploads only what changed.
-// Refuses (DEVICE, with needed and available bytes) before anything is allocated when the scene
-// fits nowhere. `statistics` may be NULL.
+// Refuses (DEVICE, with needed and available bytes) before anything is allocated on it when the
+// scene fits nowhere, settings that make no sense (ARGUMENT), and images on a device without them
+// (UNSUPPORTED). `options` and `statistics` may be NULL. The caller owns the image.
 PEL_API struct pel_image *pel_renderer_render(struct pel_renderer *renderer,
                                               const struct pel_scene *scene,
                                               const struct pel_render_options *options,

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "volume/volume.h"
 
 size_t pel_grid_cells(size_t voxels) {
     return (voxels + CELL_VOXELS - 1) / CELL_VOXELS;
@@ -80,9 +81,8 @@ static void merge_at(float (*cells)[2], size_t stride, size_t cell_count, size_t
 void pel_grid_add_slice(struct pel_grid *grid, size_t z, const void *slice, int class_index,
                         float factor) {
     size_t width = grid->dims[0], columns = grid->cells[0];
-    // A row of cells fits the stack for any volume that can be: PEL_DIMENSION_MAX / CELL_VOXELS
-    // pairs.
-    float row[65538 / CELL_VOXELS + 1][2];
+    // A row of cells fits the stack for any volume that can be, with its border.
+    float row[(PEL_DIMENSION_MAX + 2) / CELL_VOXELS + 1][2];
     for (size_t y = 0; y < grid->dims[1]; y++) {
         const char *start = slice;
         switch (class_index) {

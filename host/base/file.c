@@ -120,9 +120,10 @@ bool pel_output_open(struct pel_output *output, const char *path) {
     }
     output->stream = fdopen(descriptor, "wb");
     if (!output->stream) {
+        pel_fail(PEL_ERROR_FILE, "%s: cannot write: %s", path, strerror(errno));
         close(descriptor);
         pel_output_abandon(output);
-        return pel_fail(PEL_ERROR_FILE, "%s: cannot write: %s", path, strerror(errno));
+        return false;
     }
     return true;
 }

@@ -18,7 +18,7 @@ static bool find_kernels(struct pel_occupancy *occupancy, const struct pel_kerne
 }
 
 static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device, size_t cells) {
-    if (occupancy->cells && cells <= occupancy->cell_count)
+    if (occupancy->cells && occupancy->scratch && cells <= occupancy->cell_count)
         return true;
     pel_buffer_destroy(occupancy->cells);
     pel_buffer_destroy(occupancy->scratch);

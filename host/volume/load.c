@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/locale.h"
 #include "base/math.h"
 #include "volume/source.h"
 
@@ -213,8 +214,11 @@ struct pel_volume *pel_volume_load(const char *path, const struct pel_load_optio
     static const struct pel_load_options defaults;
     if (!options)
         options = &defaults;
+    struct pel_locale locale;
+    pel_locale_begin(&locale);
     load_function *load = choose_reader(path, options);
     struct pel_volume *volume = load ? load(path, options) : NULL;
+    pel_locale_finish(&locale);
     if (volume && !check_volume(volume)) {
         pel_volume_destroy(volume);
         volume = NULL;
@@ -229,7 +233,10 @@ bool pel_volume_save(const struct pel_volume *volume, const char *path) {
     for (int i = 0; i < FORMAT_COUNT; i++) {
         if (!formats[i].save || !pel_path_has_extension(path, formats[i].extension))
             continue;
+        struct pel_locale locale;
+        pel_locale_begin(&locale);
         bool good = formats[i].save(volume, path);
+        pel_locale_finish(&locale);
         if (!good && strncmp(pel_error_message(), path, strlen(path)) != 0)
             pel_fail_in("%s", path);
         return good;

@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/locale.h"
 #include "base/math.h"
 #include "pellucid.h"
 #include "world/itk_transform.h"
@@ -188,7 +189,10 @@ bool pel_transform_load(struct pel_matrix *world_from_world, const char *path,
     if (!text)
         return false;
     struct pel_matrix matrix;
+    struct pel_locale locale;
+    pel_locale_begin(&locale);
     bool good = parse(&matrix, path, text, bytes, moving, fixed) && make_rigid(&matrix);
+    pel_locale_finish(&locale);
     free(text);
     if (!good)
         return pel_fail_in("%s", path);
@@ -229,9 +233,12 @@ bool pel_transform_save(const struct pel_matrix *world_from_world, const char *p
     struct pel_output output;
     if (!pel_output_open(&output, path))
         return false;
+    struct pel_locale locale;
+    pel_locale_begin(&locale);
     if (itk)
         write_itk(output.stream, &matrix);
     else
         write_plain(output.stream, &matrix);
+    pel_locale_finish(&locale);
     return pel_output_commit(&output);
 }

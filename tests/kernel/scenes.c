@@ -15,10 +15,10 @@ static int is_scene(const struct dirent *entry) {
 static struct pel_scene *load_small(const char *name) {
     char path[1024];
     snprintf(path, sizeof path, "%s/scenes/%s", TEST_SOURCE, name);
-    const char *small[] = {"render.size=[16,12]", "render.step=2"};
+    const char *small[] = {"render.size=[16,12]", "render.step=1", "volumes.*.generate.size=12"};
     const char *normal[] = {"render.size=[64,48]"};
     struct pel_scene *scene =
-        scene_is_small() ? pel_scene_load(path, small, 2) : pel_scene_load(path, normal, 1);
+        scene_is_small() ? pel_scene_load(path, small, 3) : pel_scene_load(path, normal, 1);
     if (!scene)
         fail_msg("%s", pel_error_message());
     return scene;
@@ -31,12 +31,15 @@ static void test_scenes(void **state) {
     assert_true(count > 0);
     struct pel_renderer *buffers = judge_renderer(PEL_READER_BUFFER, 0);
     struct pel_renderer *images = judge_renderer(PEL_READER_IMAGE, 1);
+    bool has_images = true;
     for (int i = 0; i < count; i++) {
         struct pel_scene *scene = load_small(entries[i]->d_name);
         struct pel_render_statistics statistics;
         pel_image_destroy(judge_render(buffers, scene, &statistics, entries[i]->d_name));
         assert_true(statistics.samples > 0);
-        pel_image_destroy(judge_render(images, scene, &statistics, entries[i]->d_name));
+        has_images = i > 0 ? has_images : judge_has_images(images, scene);
+        if (has_images)
+            pel_image_destroy(judge_render(images, scene, &statistics, entries[i]->d_name));
         pel_scene_destroy(scene);
         free(entries[i]);
     }

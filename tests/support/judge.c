@@ -135,3 +135,17 @@ struct pel_renderer *judge_renderer(enum pel_reader reader, int lanes) {
         fail_msg("no renderer: %s", pel_error_message());
     return renderer;
 }
+
+bool judge_has_images(struct pel_renderer *renderer, const struct pel_scene *scene) {
+    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, NULL);
+    bool missing = !picture && pel_error_code() == PEL_ERROR_UNSUPPORTED;
+    if (missing)
+        print_message("no images here: %s\n", pel_error_message());
+    pel_image_destroy(picture);
+    return !missing;
+}
+
+int judge_packet_lanes(void) {
+    const char *lanes = getenv("PELLUCID_TEST_LANES");
+    return lanes ? atoi(lanes) : 16;
+}

@@ -30,4 +30,12 @@ struct pel_image *judge_render(struct pel_renderer *renderer, const struct pel_s
 // A renderer of the device under test; fails the test when there is none.
 struct pel_renderer *judge_renderer(enum pel_reader reader, int lanes);
 
+// True when the renderer, made for PEL_READER_IMAGE, finds 3-D images on its device; says so if
+// not. Renders the scene for that.
+bool judge_has_images(struct pel_renderer *renderer, const struct pel_scene *scene);
+
+// The lanes of a packet that its compiler takes in its stride: 16, or what PELLUCID_TEST_LANES says
+// (support/on).
+int judge_packet_lanes(void);
+
 #endif
