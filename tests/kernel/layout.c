@@ -55,6 +55,11 @@ static const struct {
     AT(world, height),
     AT(world, tiles_x),
     AT(world, part_count),
+    AT(world, rays_n),
+    AT(world, pattern),
+    AT(world, reconstruction),
+    AT(world, seed),
+    AT(world, contrast),
     AT(world, parts),
 };
 

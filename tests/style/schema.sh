@@ -45,6 +45,7 @@ pairs = {
     "scene_read_pose.c:rotation_keys": (rotation, "rotate"),
     "transfer_file.c:known_keys": (own_transfer, "transfer"),
     "scene_read_settings.c:render_keys": (defs["render"], "render"),
+    "scene_read_settings.c:supersampling_keys": (defs["supersampling"], "supersampling"),
     "scene_read_settings.c:output_keys": (defs["output"], "output"),
 }
 readme = open("scenes/README.md").read()
@@ -93,7 +94,7 @@ def place(section, key, value):
     volume = {"file": "a"}
     holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"}, "raw": {"dims": [1, 1, 1]},
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
-              "render": {}, "output": {}}[section]
+              "render": {}, "supersampling": {}, "output": {}}[section]
     if section == "transform":
         holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
                        "comment": {"file": "a"}}.get(key, {}))
@@ -105,6 +106,8 @@ def place(section, key, value):
         return {"volumes": [volume], **holder}
     if section in ("generate",):
         volume = {"generate": holder}
+    elif section == "supersampling":
+        return {"volumes": [volume], "render": {section: holder}}
     elif section == "rotate":
         volume["transform"] = {"rotate": holder}
     elif section in ("raw", "transform", "transfer"):
