@@ -1,6 +1,9 @@
 // resolve.cl - supersampling's two passes over pixels: where more rays are needed, and how rays become a picture.
 //
 // Between them stand launches of render.cl, each of which leaves the light of one ray of every pixel.
+#ifndef RESOLVE_CL
+#define RESOLVE_CL
+
 #include "shared/pattern.h"
 #include "shared/world.h"
 
@@ -54,3 +57,5 @@ __kernel void resolve(__constant struct world *world, __global const float4 *lig
     picture[pixel] = last ? sum / weight_sum : sum;
     weights[pixel] = weight_sum;
 }
+
+#endif

@@ -320,13 +320,14 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
                            NULL) ||
         !grow_buffer(&renderer->picture, &renderer->picture_bytes, pixels * sizeof(float4), device,
                      "the picture") ||
-        (world->supersampling && !pel_resolve_prepare(&renderer->resolve, device, pixels)) ||
+        (world->supersampling &&
+         !pel_resolve_prepare(&renderer->resolve, device, kernel, pixels)) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
                      packets * sizeof(u32), device, "sample counts"))
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, skip) ||
+                              &renderer->residency, kernel, skip) ||
         !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);

@@ -10,12 +10,11 @@
 // Launches cover so many pixels, so that none takes long.
 enum { GROUP = 16, LAUNCH = 1 << 20 };
 
-static bool build_kernels(struct pel_resolve *resolve, struct pel_device *device) {
-    const char *definitions = "-cl-std=CL1.2";
+static bool find_kernels(struct pel_resolve *resolve, const struct pel_kernel *render) {
     if (!resolve->refine)
-        resolve->refine = pel_kernel_build(device, "resolve.cl", "refine", definitions);
+        resolve->refine = pel_kernel_sibling(render, "refine");
     if (resolve->refine && !resolve->resolve)
-        resolve->resolve = pel_kernel_build(device, "resolve.cl", "resolve", definitions);
+        resolve->resolve = pel_kernel_sibling(render, "resolve");
     return resolve->refine && resolve->resolve;
 }
 
@@ -52,9 +51,9 @@ static bool run(struct pel_kernel *kernel, int argument, size_t pixels) {
     return true;
 }
 
-bool pel_resolve_prepare(struct pel_resolve *resolve, struct pel_device *device, size_t pixels) {
-    resolve->device = device;
-    return build_kernels(resolve, device) && make_room(resolve, device, pixels);
+bool pel_resolve_prepare(struct pel_resolve *resolve, struct pel_device *device,
+                         const struct pel_kernel *render, size_t pixels) {
+    return find_kernels(resolve, render) && make_room(resolve, device, pixels);
 }
 
 bool pel_resolve_refine(struct pel_resolve *resolve, const struct pel_buffer *world, size_t pixels,

@@ -10,7 +10,6 @@ enum { PEL_RESOLVE_BYTES = 16 + 4 + 1 };
 
 // Zero-initialise.
 struct pel_resolve {
-    struct pel_device *device;
     struct pel_kernel *refine, *resolve;
     struct pel_buffer *light;   // float4: what one ray of each pixel brought
     struct pel_buffer *weights; // float: the sum of the weights so far
@@ -18,8 +17,10 @@ struct pel_resolve {
     size_t pixels;              // room in each
 };
 
-// Builds the kernels and makes room for a picture. False: DEVICE, MEMORY, BUILD.
-bool pel_resolve_prepare(struct pel_resolve *resolve, struct pel_device *device, size_t pixels);
+// Makes room for a picture. The kernels come from the program of `render`, one that supersamples.
+// False: DEVICE, MEMORY.
+bool pel_resolve_prepare(struct pel_resolve *resolve, struct pel_device *device,
+                         const struct pel_kernel *render, size_t pixels);
 
 // Marks the pixels that get all their rays, by the light of one ray each, and counts them.
 bool pel_resolve_refine(struct pel_resolve *resolve, const struct pel_buffer *world, size_t pixels,
