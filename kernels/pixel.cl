@@ -27,6 +27,9 @@ INLINE struct ray pixel_rays(__constant struct world *world, int left, int top R
     const real x = TO_REAL(left + LANE_X), y = TO_REAL(top + LANE_Y);
 #if SUPERSAMPLING || JITTER
     float xs[LANES], ys[LANES], phases[LANES], runs[LANES];
+#if SUPERSAMPLING
+    const bool all = number == RAY_CENTRE || !(world->contrast > 0.0f);
+#endif
     for (int lane = 0; lane < LANES; lane++) {
         const int x_px = left + lane % PACKET_W, y_px = top + lane / PACKET_W;
         const uint key = pattern_key(world->seed, x_px, y_px);
@@ -35,19 +38,15 @@ INLINE struct ray pixel_rays(__constant struct world *world, int left, int top R
 #else
         const uint s = 0;
 #endif
-        phases[lane] = (float)(pattern_draw(key, DRAW_PHASE + s) >> 8) * 0x1p-24f;
+        phases[lane] = (float)(pattern_draw(key, DRAW_PHASE + s) & 0xffffffu) * 0x1p-24f;
         xs[lane] = ys[lane] = 0.5f;
-        runs[lane] = 1.0f;
 #if SUPERSAMPLING
-        if (number == RAY_CENTRE)
-            continue;
         const struct pattern_place place = pattern_place(world->pattern, world->rays_n, key, s);
-        xs[lane] = (float)place.x * 0x1p-24f;
-        ys[lane] = (float)place.y * 0x1p-24f;
-        if (x_px >= world->width || y_px >= world->height)
-            runs[lane] = 0.0f;
-        else if (world->contrast > 0.0f)
-            runs[lane] = refined[y_px * world->width + x_px];
+        xs[lane] = number == RAY_CENTRE ? 0.5f : (float)place.x * 0x1p-24f;
+        ys[lane] = number == RAY_CENTRE ? 0.5f : (float)place.y * 0x1p-24f;
+        const bool inside = x_px < world->width && y_px < world->height;
+        const int pixel = inside ? y_px * world->width + x_px : 0;
+        runs[lane] = inside && (all || refined[pixel]) ? 1.0f : 0.0f;
 #endif
     }
 #define X_IN_PIXEL(lane) xs[lane]

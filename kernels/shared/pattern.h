@@ -84,7 +84,7 @@ static inline u32 pattern_radical_inverse(u32 s) {
 // Somewhere in cell `cell` of `count` that share a side evenly. The last bits are set so that rounding down does not
 // leave the cell.
 static inline u32 pattern_in_cell(u32 cell, u32 count, u32 choice) {
-    return ((cell << 24) + (choice >> 8 | (PATTERN_RAYS_MAX - 1))) / count;
+    return ((cell << 24) + ((choice & 0xffffffu) | (PATTERN_RAYS_MAX - 1))) / count;
 }
 
 // The middle of the same.

@@ -41,7 +41,7 @@ static void choose_phase(struct reference *reference, struct place ray) {
         return;
     u32 key = pattern_key(reference->scene->render.supersampling.seed, (u32)ray.x, (u32)ray.y);
     u32 draw = pattern_draw(key, DRAW_PHASE + (ray.ray == CENTRE ? 0 : (u32)ray.ray));
-    reference->phase = ldexp(draw >> 8, -24);
+    reference->phase = ldexp(draw & 0xffffff, -24);
 }
 
 static void cast(struct reference *reference, struct place ray, double rgba[4]) {
