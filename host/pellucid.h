@@ -422,6 +422,33 @@ enum pel_skip {
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
 };
 
+// Where the n x n rays of a pixel go through it. See docs/picture.md for the sources.
+enum pel_pattern {
+    PEL_PATTERN_REGULAR,        // in the middles of n x n cells
+    PEL_PATTERN_JITTERED,       // anywhere in each of n x n cells
+    PEL_PATTERN_ROOKS,          // one in each of n^2 columns and of n^2 rows
+    PEL_PATTERN_MULTI_JITTERED, // both of the former two
+    PEL_PATTERN_HAMMERSLEY,     // evenly spaced along x, by the radical inverse along y
+};
+
+// How the rays become a pixel.
+enum pel_reconstruction {
+    PEL_RECONSTRUCTION_BOX,      // the mean of its own
+    PEL_RECONSTRUCTION_GAUSSIAN, // weighted by distance, with those of its eight neighbours
+};
+
+#define PEL_SUPERSAMPLING_MAX 8
+
+// More than one ray per pixel. All-zero is one ray through its centre.
+struct pel_supersampling {
+    int n;                          // n x n rays, up to PEL_SUPERSAMPLING_MAX; 0 = 1
+    enum pel_pattern pattern;       //
+    enum pel_reconstruction filter; //
+    uint32_t seed;   // of patterns and of jitter: the same seed gives the same picture
+    double adaptive; // when above 0, only pixels that differ from a neighbour by more than this in
+                     // any channel, 0..1, get n x n rays, and the others one; 0 = all pixels do
+};
+
 struct pel_render_settings {
     int width, height;      // pixels
     enum pel_mixing mixing; //
@@ -430,6 +457,8 @@ struct pel_render_settings {
     double termination;     // a ray ends once its opacity exceeds this; 1 = never
     enum pel_sample_origin origin;
     enum pel_skip skip; //
+    struct pel_supersampling supersampling;
+    bool jitter; // every ray has a random phase of its own in place of `phase`
 };
 
 struct pel_output_settings {
@@ -531,6 +560,7 @@ struct pel_render_statistics {
     int lanes, work_group;
     uint64_t samples;        // taken inside volumes, all rays together
     uint64_t rays;           //
+    double refined;          // share of the pixels that got all their rays: 1 unless adaptive
     uint64_t device_bytes;   // allocated on the device at the end of the frame
     uint64_t uploaded_bytes; // sent to the device for this frame
     enum pel_skip skip;

@@ -58,6 +58,11 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, height);
     *out++ = OFFSET(struct world, tiles_x);
     *out++ = OFFSET(struct world, part_count);
+    *out++ = OFFSET(struct world, rays_n);
+    *out++ = OFFSET(struct world, pattern);
+    *out++ = OFFSET(struct world, reconstruction);
+    *out++ = OFFSET(struct world, seed);
+    *out++ = OFFSET(struct world, contrast);
     *out++ = OFFSET(struct world, lamp_count);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);

@@ -6,21 +6,48 @@
 #include "shared/variant.h"
 #include "shared/world.h"
 
+#ifndef SUPERSAMPLING
+#define SUPERSAMPLING 0 // 1: one of several rays of each pixel
+#endif
+#ifndef JITTER
+#define JITTER 0 // 1: every ray has a phase of its own
+#endif
+
 struct ray {
     real ox, oy, oz; // origin, world millimetres
     real dx, dy, dz; // unit direction
+#if JITTER
+    real phase; // of the first sample, in steps
+#endif
+#if SUPERSAMPLING
+    mask runs; // 0: the pixel is done already
+#endif
 };
+
+#if JITTER
+typedef real ray_phase;
+#define RAY_PHASE(world, ray) ((ray)->phase)
+#else
+typedef float ray_phase;
+#define RAY_PHASE(world, ray) ((world)->phase)
+#endif
+#if SUPERSAMPLING
+#define RAY_RUNS(ray) ((ray)->runs)
+#else
+#define RAY_RUNS(ray) ((mask)(-1))
+#endif
 
 // A stretch of a ray: inside for near <= t < far. Empty when far <= near.
 struct span {
     real near, far;
 };
 
-// The rays of the pixels whose columns and rows, from the top, are x and y.
-INLINE struct ray camera_ray(__constant struct world *world, integer x, integer y) {
+// The rays through the places x and y of the picture: pixels, from its left and top edge. Whether they run, and their
+// phases, are left to the caller.
+INLINE struct ray camera_ray(__constant struct world *world, real x, real y) {
     __constant struct camera *camera = &world->camera;
-    const real u = (TO_REAL(x) + 0.5f) * (2.0f / (float)world->width) - 1.0f;
-    const real v = 1.0f - (TO_REAL(y) + 0.5f) * (2.0f / (float)world->height);
+    const real u = x * (2.0f / (float)world->width) - 1.0f;
+    const real v = 1.0f - y * (2.0f / (float)world->height);
     struct ray ray;
     ray.ox = camera->eye.x + u * camera->eye_right.x + v * camera->eye_up.x;
     ray.oy = camera->eye.y + u * camera->eye_right.y + v * camera->eye_up.y;
@@ -39,6 +66,12 @@ INLINE struct ray camera_ray(__constant struct world *world, integer x, integer 
 // world millimetres.
 INLINE struct ray transform_ray(__constant const float4 *rows, const struct ray *ray) {
     struct ray result;
+#if JITTER
+    result.phase = ray->phase;
+#endif
+#if SUPERSAMPLING
+    result.runs = ray->runs;
+#endif
     result.ox = rows[0].x * ray->ox + rows[0].y * ray->oy + rows[0].z * ray->oz + rows[0].w;
     result.oy = rows[1].x * ray->ox + rows[1].y * ray->oy + rows[1].z * ray->oz + rows[1].w;
     result.oz = rows[2].x * ray->ox + rows[2].y * ray->oy + rows[2].z * ray->oz + rows[2].w;

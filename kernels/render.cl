@@ -5,8 +5,12 @@
 // into spans with a constant set of active parts; the cost of a sample follows that set. Each part has a
 // cursor; after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
+#include "pixel.cl"
 #include "shade.cl"
 #include "span.cl"
+#if SUPERSAMPLING
+#include "resolve.cl"
+#endif
 
 #ifndef MIXING
 #define MIXING MIXING_SUM // how volumes that overlap share a sample
@@ -14,11 +18,6 @@
 
 // With one part there is nothing to add up, and its table holds opacities.
 #define STRENGTH_DEPTH (MIXING == MIXING_SUM && CAPACITY > 1)
-
-// Premultiplied colour and opacity of each lane, accumulated front to back.
-struct light {
-    real r, g, b, a;
-};
 
 // Puts a layer of straight colour and opacity a behind what has been gathered.
 INLINE void light_add(struct light *light, real r, real g, real b, real a) {
@@ -123,18 +122,22 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 // premultiplied RGBA, rows from the top, and each packet's number of samples.
 __kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
                      __global float4 *picture, __global uint *sample_counts, const uint first_tile,
-                     __global const uchar *cells, MEMORY_PARAMETERS) {
+                     __global const uchar *cells RAY_PARAMETERS, MEMORY_PARAMETERS) {
     const uint packets_per_row = TILE_PX / PACKET_W;
     const uint packets_per_tile = packets_per_row * (TILE_PX / PACKET_H);
     const uint packet = get_global_id(0) % packets_per_tile;
     const uint tile = get_global_id(0) / packets_per_tile + first_tile;
     const int left = (int)(tile % world->tiles_x * TILE_PX + packet % packets_per_row * PACKET_W);
     const int top = (int)(tile / world->tiles_x * TILE_PX + packet / packets_per_row * PACKET_H);
-    sample_counts[tile * packets_per_tile + packet] = 0;
+    __global uint *count = &sample_counts[tile * packets_per_tile + packet];
+    const uint earlier = earlier_samples(world, *count RAY_ARGUMENTS);
+    *count = earlier;
     if (left >= world->width || top >= world->height)
         return;
 
-    const struct ray ray = camera_ray(world, left + LANE_X, top + LANE_Y);
+    const struct ray ray = pixel_rays(world, left, top RAY_ARGUMENTS);
+    if (!any_lane(RAY_RUNS(&ray)))
+        return;
     struct crossing crossing;
     find_crossing(world, cells, &ray, &crossing);
     integer samples = (integer)(0);
@@ -148,19 +151,6 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     light.g += clear * behind.y;
     light.b += clear * behind.z;
     light.a += clear * behind.w;
-    sample_counts[tile * packets_per_tile + packet] = (uint)sum_lanes(samples);
-#if LANES == 1
-    picture[top * world->width + left] = (float4)(light.r, light.g, light.b, light.a);
-#else
-    float r[LANES], g[LANES], b[LANES], a[LANES];
-    STORE_LANES(light.r, r);
-    STORE_LANES(light.g, g);
-    STORE_LANES(light.b, b);
-    STORE_LANES(light.a, a);
-    for (int lane = 0; lane < LANES; lane++) {
-        const int x = left + lane % PACKET_W, y = top + lane / PACKET_W;
-        if (x < world->width && y < world->height)
-            picture[y * world->width + x] = (float4)(r[lane], g[lane], b[lane], a[lane]);
-    }
-#endif
+    *count = earlier + (uint)sum_lanes(samples);
+    store_pixels(world, picture, left, top, &ray, &light);
 }

@@ -16,6 +16,12 @@ enum {
     KEY_TERMINATION,
     KEY_PHASE,
     KEY_SKIP,
+    KEY_SUPERSAMPLE,
+    KEY_PATTERN,
+    KEY_RECONSTRUCTION,
+    KEY_ADAPTIVE,
+    KEY_SEED,
+    KEY_JITTER,
     KEY_DENSITY,
     KEY_SHADING,
     KEY_BACKGROUND,
@@ -80,6 +86,15 @@ static const struct argp_option argp_options[] = {
      0},
     {"skip", KEY_SKIP, "auto|none|grid|distance", 0,
      "How empty space is skipped; the picture is the same with each", 0},
+    {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
+    {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,
+     "Where they go through the pixel", 0},
+    {"supersample-filter", KEY_RECONSTRUCTION, "box|gaussian", 0,
+     "Whether a pixel is the mean of its rays, or weighs those around it, too", 0},
+    {"adaptive", KEY_ADAPTIVE, "X", 0,
+     "N x N rays only where neighbouring pixels differ by more than X, 0 to 1", 0},
+    {"seed", KEY_SEED, "N", 0, "Seed of all random patterns", 0},
+    {"jitter", KEY_JITTER, NULL, 0, "A random phase for every ray", 0},
     {0, 0, NULL, 0, "The device:", 5},
     {"device", KEY_DEVICE, "D", 0,
      "Number, part of the name, or type (gpu, cpu); 'pellucid devices' lists them", 0},
@@ -230,6 +245,24 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_SKIP:
         overrides_add_text(&options->overrides, "render.skip", argument);
+        break;
+    case KEY_SUPERSAMPLE:
+        good = add_integer(options, "--supersample", "render.supersampling.n", argument);
+        break;
+    case KEY_PATTERN:
+        overrides_add_text(&options->overrides, "render.supersampling.pattern", argument);
+        break;
+    case KEY_RECONSTRUCTION:
+        overrides_add_text(&options->overrides, "render.supersampling.filter", argument);
+        break;
+    case KEY_ADAPTIVE:
+        good = add_number(options, "--adaptive", "render.supersampling.adaptive", argument);
+        break;
+    case KEY_SEED:
+        good = add_integer(options, "--seed", "render.supersampling.seed", argument);
+        break;
+    case KEY_JITTER:
+        overrides_add(&options->overrides, "render.jitter", "true");
         break;
     case KEY_FILTER:
         overrides_add_text(&options->overrides, "volumes.*.filter", argument);

@@ -15,7 +15,9 @@
 #include "render/mirror.h"
 #include "render/occupancy.h"
 #include "render/residency.h"
+#include "render/resolve.h"
 #include "render/variant.h"
+#include "shared/pattern.h"
 
 enum { KERNEL_CACHE = 16, PICTURE_MAX = 32768 };
 
@@ -34,6 +36,7 @@ struct pel_renderer {
     struct cached_kernel kernels[KERNEL_CACHE]; // newest first
     struct pel_mirror world, tables;
     struct pel_occupancy occupancy;
+    struct pel_resolve resolve;
     struct pel_buffer *picture, *sample_counts;
     size_t picture_bytes, sample_counts_bytes;
     double tiles_per_ms; // as the last frame ran; 0 = unknown
@@ -111,6 +114,20 @@ static size_t round_up(size_t value, size_t multiple) {
     return (value + multiple - 1) / multiple * multiple;
 }
 
+static bool check_supersampling(const struct pel_supersampling *supersampling) {
+    if (supersampling->n < 0 || supersampling->n > PEL_SUPERSAMPLING_MAX)
+        return pel_fail(PEL_ERROR_ARGUMENT, "supersampling with n = %d, outside 0..%d",
+                        supersampling->n, PEL_SUPERSAMPLING_MAX);
+    if ((unsigned)supersampling->pattern > PEL_PATTERN_HAMMERSLEY ||
+        (unsigned)supersampling->filter > PEL_RECONSTRUCTION_GAUSSIAN)
+        return pel_fail(PEL_ERROR_ARGUMENT, "supersampling with pattern %d and filter %d",
+                        (int)supersampling->pattern, (int)supersampling->filter);
+    if (!(supersampling->adaptive >= 0))
+        return pel_fail(PEL_ERROR_ARGUMENT, "adaptive supersampling beyond %g, must be at least 0",
+                        supersampling->adaptive);
+    return true;
+}
+
 static bool check_settings(const struct pel_scene *scene) {
     const struct pel_render_settings *settings = &scene->render;
     if (settings->width < 1 || settings->height < 1 || settings->width > PICTURE_MAX ||
@@ -123,7 +140,7 @@ static bool check_settings(const struct pel_scene *scene) {
         return pel_fail(PEL_ERROR_ARGUMENT, "phase %g, outside 0..1", settings->phase);
     if (!(settings->termination >= 0 && settings->termination <= 1))
         return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
-    return true;
+    return check_supersampling(&settings->supersampling);
 }
 
 // Refuses a frame whose voxels and picture together do not fit, before anything is allocated.
@@ -142,16 +159,26 @@ static bool check_memory(const struct pel_layout *layout, const struct pel_layou
     return true;
 }
 
-// Binds everything but the first tile, in the order of the kernel's parameters. A kernel has an
-// atlas for each class in `voxels` only.
-static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel, int voxels) {
+// Where the kernel finds what changes from launch to launch.
+enum { FIRST_TILE_ARGUMENT = 4, RAY_ARGUMENT = 6 };
+
+// Binds everything but the first tile and the ray's number, in the order of the kernel's
+// parameters. A kernel has an atlas for each class in `voxels` only.
+static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel,
+                          const struct pel_variant *variant) {
+    const struct pel_buffer *light =
+        variant->supersampling ? renderer->resolve.light : renderer->picture;
     int index = 0;
     bool good = pel_kernel_set_buffer(kernel, index++, renderer->world.buffer) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer) &&
-                pel_kernel_set_buffer(kernel, index++, renderer->picture) &&
+                pel_kernel_set_buffer(kernel, index++, light) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->sample_counts);
     index++; // the first tile is set for each batch
     good = good && pel_kernel_set_buffer(kernel, index++, renderer->occupancy.cells);
+    if (variant->supersampling) {
+        index++; // the ray's number is set for each pass
+        good = good && pel_kernel_set_buffer(kernel, index++, renderer->resolve.refined);
+    }
     struct pel_residency *residency = &renderer->residency;
     if (residency->layout.reader == PEL_READER_BUFFER) {
         for (int b = 0; good && b < VOXEL_BUFFERS; b++)
@@ -160,7 +187,7 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
     }
     uint32_t atlas_count = 0;
     for (int class = 0; good && class < VOXEL_CLASS_COUNT; class ++) {
-        if (!(voxels & 1 << class))
+        if (!(variant->voxels & 1 << class))
             continue;
         good = pel_kernel_set_texture(kernel, index++, residency->atlases[class]);
         atlas_count++;
@@ -171,15 +198,20 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
 // Runs the kernel over `count` tiles from `first` on and waits for it.
 static bool run_batch(struct pel_renderer *renderer, struct pel_kernel *kernel,
                       const struct extent *extent, size_t first, size_t count) {
-    enum { FIRST_TILE_ARGUMENT = 4 };
     size_t items = round_up(count, extent->tiles_per_group) * extent->packets_per_tile;
     return pel_kernel_set_u32(kernel, FIRST_TILE_ARGUMENT, (uint32_t)first) &&
            pel_kernel_launch(kernel, items, extent->group) && pel_device_finish(renderer->device);
 }
 
+// Which of how many times the kernel runs over the tiles.
+struct pass {
+    int number, count;
+};
+
 // Runs the kernel over all tiles, in batches.
 static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                      const struct extent *extent, const struct pel_render_options *options) {
+                      const struct extent *extent, const struct pel_render_options *options,
+                      struct pass pass) {
     enum { FIRST_BATCH = 64 };
     double start = now_ms(), mark = start;
     double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms : FIRST_BATCH;
@@ -192,8 +224,9 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
         if (!run_batch(renderer, kernel, extent, tile, count))
             return false;
         tile += count;
+        double finished = pass.number + (double)tile / (double)extent->tiles;
         if (options && options->progress &&
-            !options->progress((double)tile / (double)extent->tiles, options->user))
+            !options->progress(finished / pass.count, options->user))
             return pel_fail(PEL_ERROR_ARGUMENT, "the frame was abandoned");
         // The next batch aims at the set time, but one measurement makes it grow fourfold at most.
         double per_ms = (double)count / fmax(lap_ms(&mark), 0.05);
@@ -201,6 +234,42 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
     }
     renderer->tiles_per_ms = (double)extent->tiles / fmax(now_ms() - start, 0.05);
     return true;
+}
+
+// Runs the kernel for one ray of each pixel after the other, and adds them up.
+static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
+                     const struct pel_scene *scene, const struct extent *extent,
+                     const struct pel_render_options *options,
+                     struct pel_render_statistics *statistics) {
+    const struct pel_supersampling *supersampling = &scene->render.supersampling;
+    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
+    bool adaptive = (float)supersampling->adaptive > 0; // as the kernels read it
+    int n = supersampling->n > 1 ? supersampling->n : 1;
+    struct pass pass = {0, n * n + adaptive};
+    double slowest = INFINITY; // tiles per millisecond
+    statistics->rays = pixels * (uint64_t)(n * n);
+    if (adaptive) {
+        uint64_t refined;
+        if (!pel_kernel_set_u32(kernel, RAY_ARGUMENT, RAY_CENTRE) ||
+            !run_tiles(renderer, kernel, extent, options, pass) ||
+            !pel_resolve_refine(&renderer->resolve, renderer->world.buffer, pixels, &refined))
+            return false;
+        statistics->rays = pixels + refined * (uint64_t)(n * n);
+        statistics->refined = (double)refined / (double)pixels;
+        slowest = renderer->tiles_per_ms;
+        pass.number++;
+    }
+    for (int ray = 0; ray < n * n; ray++, pass.number++) {
+        if (!pel_kernel_set_u32(kernel, RAY_ARGUMENT, (uint32_t)ray) ||
+            !run_tiles(renderer, kernel, extent, options, pass) ||
+            !pel_resolve_add(&renderer->resolve, renderer->world.buffer, renderer->picture, pixels,
+                             ray))
+            return false;
+        slowest = fmin(slowest, renderer->tiles_per_ms);
+    }
+    // The next frame may begin with all pixels where this one ended with few.
+    renderer->tiles_per_ms = slowest;
+    return pel_device_finish(renderer->device);
 }
 
 static uint64_t count_samples(struct pel_renderer *renderer, size_t packets) {
@@ -252,13 +321,15 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
                            NULL) ||
         !grow_buffer(&renderer->picture, &renderer->picture_bytes, pixels * sizeof(float4), device,
                      "the picture") ||
+        (world->supersampling &&
+         !pel_resolve_prepare(&renderer->resolve, device, kernel, pixels)) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
                      packets * sizeof(u32), device, "sample counts"))
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
                               &renderer->residency, kernel, skip) ||
-        !set_arguments(renderer, kernel, variant.voxels))
+        !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);
     statistics->work_group = (int)extent->group;
@@ -268,21 +339,23 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
 // Runs the kernel and brings the picture here. The caller owns it.
 static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *kernel,
                              const struct pel_scene *scene, const struct extent *extent,
-                             const struct pel_render_options *options,
+                             bool supersampling, const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = now_ms();
-    if (!run_tiles(renderer, kernel, extent, options))
+    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
+    statistics->rays = pixels;
+    statistics->refined = 1;
+    if (!(supersampling ? run_rays(renderer, kernel, scene, extent, options, statistics)
+                        : run_tiles(renderer, kernel, extent, options, (struct pass){0, 1})))
         return NULL;
     statistics->render_ms = lap_ms(&mark);
     struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
     if (!image)
         return NULL;
-    size_t pixels = (size_t)image->width * (size_t)image->height;
     if (!pel_buffer_read(renderer->picture, 0, pixels * sizeof(float4), image->rgba)) {
         pel_image_destroy(image);
         return NULL;
     }
-    statistics->rays = pixels;
     statistics->samples = count_samples(renderer, extent->tiles * extent->packets_per_tile);
     statistics->download_ms = lap_ms(&mark);
     return image;
@@ -317,12 +390,16 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
         pel_residency_limits(renderer->device, renderer->options.max_allocation_bytes);
     struct pel_layout layout;
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
-    if (!pel_layout_plan(&layout, scene, &limits, renderer->options.reader, info->reader) ||
-        !check_memory(&layout, &limits, pixels * sizeof(float4)))
+    if (!pel_layout_plan(&layout, scene, &limits, renderer->options.reader, info->reader))
         return NULL;
     struct pel_world world;
     if (!pel_world_build(&world, scene, &layout))
         return NULL;
+    size_t pixel_bytes = sizeof(float4) + (world.supersampling ? PEL_RESOLVE_BYTES : 0);
+    if (!check_memory(&layout, &limits, pixels * pixel_bytes)) {
+        pel_world_finish(&world);
+        return NULL;
+    }
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout.reader;
     statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
@@ -334,7 +411,9 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     } else {
         struct extent extent;
         struct pel_kernel *kernel = prepare(renderer, scene, &layout, &world, &extent, statistics);
-        image = kernel ? run(renderer, kernel, scene, &extent, options, statistics) : NULL;
+        image =
+            kernel ? run(renderer, kernel, scene, &extent, world.supersampling, options, statistics)
+                   : NULL;
     }
     pel_world_finish(&world);
     memcpy(statistics->device, info->name, sizeof statistics->device);
@@ -376,6 +455,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_mirror_finish(&renderer->world);
     pel_mirror_finish(&renderer->tables);
     pel_occupancy_finish(&renderer->occupancy);
+    pel_resolve_finish(&renderer->resolve);
     pel_buffer_destroy(renderer->picture);
     pel_buffer_destroy(renderer->sample_counts);
     for (int i = 0; i < KERNEL_CACHE; i++)

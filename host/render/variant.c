@@ -21,6 +21,8 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
                                  : WORLD_PART_MAX,
         .shading = world->shaded,
         .table_linear = world->table_linear,
+        .supersampling = world->supersampling,
+        .jitter = world->jitter,
         .table_global =
             sizeof world->bytes + world->table_words * sizeof *world->tables > constant_bytes,
     };
@@ -29,8 +31,10 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
 void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_BYTES]) {
     snprintf(text, PEL_VARIANT_BYTES,
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
-             "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s",
+             "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
+             "-DSUPERSAMPLING=%d -DJITTER=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
-             variant->table_global ? "__global" : "__constant");
+             variant->table_global ? "__global" : "__constant", variant->supersampling,
+             variant->jitter);
 }

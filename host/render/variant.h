@@ -17,7 +17,9 @@ struct pel_variant {
     int capacity; // parts: 1, 8 or WORLD_PART_MAX
     bool shading; // some part is shaded
     bool table_linear;
-    bool table_global; // the tables do not fit into constant memory
+    bool supersampling; // one of several rays of each pixel at a time
+    bool jitter;        // every ray has a phase of its own
+    bool table_global;  // the tables do not fit into constant memory
 };
 
 // The variant for a world on a device with `constant_bytes` of constant memory.

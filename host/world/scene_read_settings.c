@@ -2,6 +2,7 @@
 // render settings and output.
 #include "world/scene_plan.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,14 +11,20 @@
 
 enum { PICTURE_MAX = 32768 };
 
-static const char *const render_keys[] = {"comment",     "size",   "mixing", "step", "phase",
-                                          "termination", "origin", "skip",   NULL};
+static const char *const render_keys[] = {"comment",       "size",        "mixing", "step",
+                                          "phase",         "termination", "origin", "skip",
+                                          "supersampling", "jitter",      NULL};
+static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
+                                                 "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
 
 // In the order of their enums.
 static const char *const mixing_names[] = {"sum", "over", NULL};
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
 static const char *const skip_names[] = {"auto", "none", "grid", "distance", NULL};
+static const char *const pattern_names[] = {"regular",        "jittered",   "n-rooks",
+                                            "multi-jittered", "hammersley", NULL};
+static const char *const reconstruction_names[] = {"box", "gaussian", NULL};
 static const char *const alpha_names[] = {"straight", "premultiplied", NULL};
 
 static const char *const background_names[] = {"black", "white",   "grey", "red",
@@ -73,6 +80,25 @@ static bool read_size(struct pel_render_settings *render, const struct pel_scene
     return true;
 }
 
+static bool read_supersampling(struct pel_supersampling *supersampling,
+                               const struct pel_scene_node *render) {
+    struct pel_scene_node node;
+    if (!pel_node_member(&node, render, "supersampling"))
+        return true;
+    int pattern = (int)supersampling->pattern, filter = (int)supersampling->filter;
+    int seed = (int)supersampling->seed;
+    bool good = pel_node_check_object(&node, supersampling_keys) &&
+                pel_node_get_integer(&node, "n", 1, PEL_SUPERSAMPLING_MAX, &supersampling->n) &&
+                pel_node_get_name(&node, "pattern", pattern_names, &pattern) &&
+                pel_node_get_name(&node, "filter", reconstruction_names, &filter) &&
+                pel_node_get_integer(&node, "seed", 0, INT_MAX, &seed) &&
+                pel_node_get_number(&node, "adaptive", &pel_unit_number, &supersampling->adaptive);
+    supersampling->pattern = (enum pel_pattern)pattern;
+    supersampling->filter = (enum pel_reconstruction)filter;
+    supersampling->seed = (uint32_t)seed;
+    return good;
+}
+
 static bool read_render(struct pel_render_settings *render, const struct pel_scene_node *scene) {
     struct pel_scene_node node;
     if (!pel_node_member(&node, scene, "render"))
@@ -87,7 +113,9 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
         pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
         pel_node_get_number(&node, "termination", &termination_range, &render->termination) &&
         pel_node_get_name(&node, "origin", origin_names, &origin) &&
-        pel_node_get_name(&node, "skip", skip_names, &skip);
+        pel_node_get_name(&node, "skip", skip_names, &skip) &&
+        read_supersampling(&render->supersampling, &node) &&
+        pel_node_get_bool(&node, "jitter", &render->jitter);
     render->mixing = (enum pel_mixing)mixing;
     render->origin = (enum pel_sample_origin)origin;
     render->skip = (enum pel_skip)skip;

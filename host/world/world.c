@@ -221,6 +221,13 @@ static bool build_tables(struct pel_table *tables, struct pel_world *world,
     return true;
 }
 
+// One ray through the centre, as it is, is what a kernel does without being told.
+static bool is_supersampled(const struct pel_supersampling *supersampling) {
+    bool centred = supersampling->pattern == PEL_PATTERN_REGULAR ||
+                   supersampling->pattern == PEL_PATTERN_HAMMERSLEY;
+    return supersampling->n > 1 || !centred || supersampling->filter != PEL_RECONSTRUCTION_BOX;
+}
+
 static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_bounds *bounds, const double centre[3]) {
     const struct pel_render_settings *settings = &scene->render;
@@ -243,6 +250,13 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->width = settings->width;
     bytes->height = settings->height;
     bytes->tiles_x = (settings->width + TILE_PX - 1) / TILE_PX;
+    // The numbers of shared/pattern.h are in the order of the enums.
+    const struct pel_supersampling *supersampling = &settings->supersampling;
+    bytes->rays_n = supersampling->n > 1 ? supersampling->n : 1;
+    bytes->pattern = (i32)supersampling->pattern;
+    bytes->reconstruction = (i32)supersampling->filter;
+    bytes->seed = supersampling->seed;
+    bytes->contrast = (float)supersampling->adaptive;
 }
 
 static bool fill_instances(struct pel_world *world, const struct pel_scene *scene,
@@ -283,6 +297,8 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
         !pel_lighting_fill_lamps(&world->bytes, scene, centre))
         return false;
 
+    world->supersampling = is_supersampled(&scene->render.supersampling);
+    world->jitter = scene->render.jitter;
     world->mixing = scene->render.mixing == PEL_MIX_SUM ? MIXING_SUM : MIXING_OVER;
     struct pel_table tables[PEL_VOLUME_MAX] = {{0}};
     bool good = build_tables(tables, world, scene);

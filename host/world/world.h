@@ -13,12 +13,14 @@ struct pel_world {
     size_t visible_words;
     size_t cell_count; // of all parts (shared/grid.h)
     // What the kernel must be able to do.
-    int voxels;        // classes of voxels, VOXELS_*
-    int filters;       // FILTERS_*
-    int mixing;        // MIXING_*
-    bool table_linear; // some table must be interpolated
-    bool shaded;       // some part is
-    bool depth;        // strengths are optical depths: more than one part, and extinctions add
+    int voxels;         // classes of voxels, VOXELS_*
+    int filters;        // FILTERS_*
+    int mixing;         // MIXING_*
+    bool table_linear;  // some table must be interpolated
+    bool shaded;        // some part is
+    bool supersampling; // several rays a pixel, or one that does not go through its centre
+    bool jitter;        // every ray has a phase of its own
+    bool depth;         // strengths are optical depths: more than one part, and extinctions add
 };
 
 // Fills a world from a scene whose volumes lie as `layout` says. Fails (MEMORY, ARGUMENT) on

@@ -77,12 +77,17 @@ struct world {
     i32 width, height; // of the picture in pixels
     i32 tiles_x;       // tiles in a row of the picture
     i32 part_count;
+    i32 rays_n;         // supersampling: rays_n x rays_n rays a pixel (shared/pattern.h)
+    i32 pattern;        // one of PATTERN_*
+    i32 reconstruction; // one of RECONSTRUCTION_*
+    u32 seed;           // of all random choices
+    float contrast;     // between neighbours, beyond which a pixel takes all its rays; 0: all do
     i32 lamp_count;
-    i32 pad[3];
+    i32 pad[2];
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
 };
 
-SHARED_ASSERT(sizeof(struct world) == 192 + 48 * LAMP_MAX + 224 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 224 * WORLD_PART_MAX, world_size);
 
 #endif

@@ -19,7 +19,7 @@ struct cursor {
 };
 
 // The number of the first sample at or behind distance t.
-INLINE integer sample_at(real t, real t_near, float phase, float per_mm) {
+INLINE integer sample_at(real t, real t_near, ray_phase phase, float per_mm) {
     const real number = ceil((t - t_near) * per_mm - phase);
     return TO_INTEGER(clamp(number, 0.0f, 1e9f));
 }
@@ -30,15 +30,16 @@ INLINE struct cursor cursor_begin(__constant struct world *world, __constant str
                                   real t_near) {
     const float per_mm = 1.0f / world->step_mm;
     // A short span may lie between two samples: then there is nothing to show either.
-    const integer first = sample_at(span->near, t_near, world->phase, per_mm);
-    const integer end = sample_at(span->far, t_near, world->phase, per_mm);
-    const mask runs = MASK(span->near < span->far) & MASK(first < end);
+    const ray_phase phase = RAY_PHASE(world, ray_voxel);
+    const integer first = sample_at(span->near, t_near, phase, per_mm);
+    const integer end = sample_at(span->far, t_near, phase, per_mm);
+    const mask runs = MASK(span->near < span->far) & MASK(first < end) & RAY_RUNS(ray_voxel);
     struct cursor cursor;
     cursor.first = CHOOSE((integer)(SAMPLE_NEVER), first, runs);
     cursor.end = CHOOSE((integer)(0), end, runs);
     cursor.next = cursor.first;
 
-    const real t_first = t_near + world->phase * world->step_mm;
+    const real t_first = t_near + phase * world->step_mm;
     const float4 shift = part->memory_from_voxel;
     const real zero = (real)(0.0f), one = (real)(1.0f);
     cursor.ox = CHOOSE(one, ray_voxel->ox + t_first * ray_voxel->dx + shift.x, runs);

@@ -55,7 +55,8 @@ png eye.png '__import__("json").loads(texts["camera"])["fov"] == 30'
 for option in '--mix over' '--filter nearest' '--termination 1' '--phase 0.25' '--density 0.5' '--background white' \
     '--background 0.1,0.2,0.3' '--background #102030' '--transfer viridis' '--alpha premultiplied' '--reader buffer' \
     '--shading' '--shading=off' '--shading=model=phong,ambient=0.2,shininess=30' '--lanes 4' '--lanes 1' \
-    '--work-group 1' '--set camera.fov=20' '--quiet'; do
+    '--work-group 1' '--set camera.fov=20' '--quiet' \
+    '--supersample 2 --supersample-pattern n-rooks --supersample-filter gaussian --seed 3 --jitter'; do
     # shellcheck disable=SC2086
     expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" $option -o option.png
 done
@@ -124,10 +125,12 @@ expect 2 '^pellucid: --json and the picture both want' render data/box.nii.gz -o
 # What a program gets.
 expect 0 '' render data/box.nii.gz "${small[@]}" -o json.png --json
 check_json 'x["picture"] == "json.png" and (x["width"], x["height"], x["rays"]) == (32, 24, 32 * 24)'
-check_json 'x["samples"] > 0 and x["device_bytes"] >= 16 ** 3 and x["uploaded_bytes"] >= 16 ** 3'
+check_json 'x["refined"] == 1 and x["samples"] > 0 and x["device_bytes"] >= 16 ** 3 and x["uploaded_bytes"] >= 16 ** 3'
 check_json 'x["reader"] in ("buffer", "image") and x["lanes"] in (1, 4, 8, 16) and x["work_group"] >= 1'
 check_json 'all(x[t + "_ms"] >= 0 for t in "load prepare build upload render download save total".split())'
 check_json 'x["device"] and x["driver"]'
+expect 0 '' render data/box.nii.gz "${small[@]}" -o json.png --json --supersample 2 --adaptive 0.25
+check_json '0 < x["refined"] < 1 and x["rays"] == 32 * 24 + round(4 * x["refined"] * 32 * 24)'
 
 # Before anything is rendered: names nobody knows, folders that are not there, the input itself.
 expect 2 '^pellucid: box\.jpg: a picture.s name ends in \.png, \.tif, \.tiff or \.ppm' render data/box.nii.gz -o box.jpg

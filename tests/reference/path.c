@@ -54,6 +54,7 @@ struct reference *reference_create(const struct pel_scene *scene) {
     *reference = (struct reference){
         .scene = scene,
         .step_mm = INFINITY,
+        .phase = NAN,
         .low = {INFINITY, INFINITY, INFINITY},
         .high = {-INFINITY, -INFINITY, -INFINITY},
     };
@@ -82,6 +83,7 @@ bool reference_begin(struct reference_path *path, const struct reference *refere
     struct reference_ray ray =
         reference_camera_ray(&scene->camera, scene->render.width, scene->render.height, x_px, y_px);
     path->ray = ray;
+    path->phase = isnan(reference->phase) ? scene->render.phase : reference->phase;
     path->t_near = INFINITY;
     path->t_far = -INFINITY;
     for (int k = 0; k < reference->body_count; k++) {
@@ -102,5 +104,5 @@ bool reference_begin(struct reference_path *path, const struct reference *refere
 
 double reference_sample_t(const struct reference *reference, const struct reference_path *path,
                           double i) {
-    return path->t_near + (i + reference->scene->render.phase) * reference->step_mm;
+    return path->t_near + (i + path->phase) * reference->step_mm;
 }

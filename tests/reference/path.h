@@ -19,6 +19,7 @@ struct reference {
     int body_count;
     struct reference_body bodies[PEL_VOLUME_MAX];
     double step_mm;
+    double phase;           // of the next rays; NaN: the scene's
     double low[3], high[3]; // world bounds of all boxes
 };
 
@@ -27,6 +28,7 @@ struct reference_path {
     struct reference_ray ray;                  // in the world
     struct reference_ray rays[PEL_VOLUME_MAX]; // in the voxel coordinates of each body
     struct reference_span spans[PEL_VOLUME_MAX];
+    double phase;
     double t_near, t_far; // no sample lies at t_far or beyond
 };
 

@@ -6,6 +6,7 @@
 #include "reference/mix.h"
 #include "reference/path.h"
 #include "reference/shade.h"
+#include "reference/supersample.h"
 
 // The media present at t, in the order of the list; returns how many. `*taken` counts absent
 // samples too.
@@ -119,7 +120,7 @@ void reference_ray(const struct pel_scene *scene, double x_px, double y_px, doub
 }
 
 struct pel_image *reference_render(const struct pel_scene *scene) {
-    return render(scene, false);
+    return reference_is_simple(scene) ? render(scene, false) : reference_supersample(scene);
 }
 
 struct pel_image *reference_render_back_to_front(const struct pel_scene *scene) {

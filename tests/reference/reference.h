@@ -37,6 +37,10 @@ struct reference_errors {
 double reference_cast_bound(const struct reference *reference, double x_px, double y_px,
                             const struct reference_errors *errors);
 
+// The same for pixel (x, y), all of its rays taken together.
+double reference_pixel_bound(struct reference *reference, int x, int y,
+                             const struct reference_errors *errors);
+
 // One ray and whole pictures of a scene; the pictures belong to the caller (pel_image_destroy).
 void reference_ray(const struct pel_scene *scene, double x_px, double y_px, double rgba[4],
                    uint64_t *samples);

@@ -65,8 +65,8 @@ void judge_check(const struct judge *judge, const struct pel_image *picture,
         }
         if (off <= 1 / 255.0)
             continue;
-        double bound = 1 / 255.0 + reference_cast_bound(judge->reference, i % expected->width,
-                                                        i / expected->width, &errors);
+        double bound = 1 / 255.0 + reference_pixel_bound(judge->reference, i % expected->width,
+                                                         i / expected->width, &errors);
         if (off <= bound)
             continue;
         wrong_count++;

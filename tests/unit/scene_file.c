@@ -46,6 +46,11 @@ static void test_defaults(void **state) {
     assert_float_equal(scene->render.phase, 0.5, 0);
     assert_float_equal(scene->render.termination, 0.99, 0);
     assert_int_equal(scene->render.origin, PEL_ORIGIN_VOLUMES);
+    assert_true(scene->render.supersampling.n <= 1);
+    assert_int_equal(scene->render.supersampling.pattern, PEL_PATTERN_REGULAR);
+    assert_int_equal(scene->render.supersampling.filter, PEL_RECONSTRUCTION_BOX);
+    assert_float_equal(scene->render.supersampling.adaptive, 0, 0);
+    assert_false(scene->render.jitter);
     assert_int_equal(scene->output.depth, 8);
     assert_string_equal(scene->output.path, "");
     assert_triple(scene->background, 0, 0, 0);
@@ -78,6 +83,28 @@ static void test_stereo(void **state) {
     assert_float_equal(scene->stereo.matrix[2][1], -0.5, 0);
     assert_float_equal(scene->stereo.matrix[2][5], 1.5, 0);
     pel_scene_destroy(scene);
+}
+
+static void test_supersampling(void **state) {
+    (void)state;
+    static const char *const names[] = {"regular", "jittered", "n-rooks", "multi-jittered",
+                                        "hammersley"};
+    for (int pattern = PEL_PATTERN_REGULAR; pattern <= PEL_PATTERN_HAMMERSLEY; pattern++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "{'render': {'supersampling': {'n': 4, 'pattern': '%s', 'filter': 'gaussian', "
+                 "'seed': 2147483647, 'adaptive': 0.125}, 'jitter': true}, " TEST_VOLUMES "}",
+                 names[pattern]);
+        struct pel_scene *scene = load(text);
+        const struct pel_supersampling *supersampling = &scene->render.supersampling;
+        assert_int_equal(supersampling->n, 4);
+        assert_int_equal(supersampling->pattern, pattern);
+        assert_int_equal(supersampling->filter, PEL_RECONSTRUCTION_GAUSSIAN);
+        assert_int_equal(supersampling->seed, 2147483647);
+        assert_float_equal(supersampling->adaptive, 0.125, 0);
+        assert_true(scene->render.jitter);
+        pel_scene_destroy(scene);
+    }
 }
 
 static void test_settings(void **state) {
@@ -359,13 +386,14 @@ static void test_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults),    cmocka_unit_test(test_settings),
-        cmocka_unit_test(test_stereo),      cmocka_unit_test(test_backgrounds),
-        cmocka_unit_test(test_camera),      cmocka_unit_test(test_transforms),
-        cmocka_unit_test(test_volume_keys), cmocka_unit_test(test_bounds),
-        cmocka_unit_test(test_sharing),     cmocka_unit_test(test_overrides),
-        cmocka_unit_test(test_generated),   cmocka_unit_test(test_other_files),
-        cmocka_unit_test(test_fsl),         cmocka_unit_test(test_files),
+        cmocka_unit_test(test_defaults),      cmocka_unit_test(test_settings),
+        cmocka_unit_test(test_supersampling), cmocka_unit_test(test_stereo),
+        cmocka_unit_test(test_backgrounds),   cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_transforms),    cmocka_unit_test(test_volume_keys),
+        cmocka_unit_test(test_bounds),        cmocka_unit_test(test_sharing),
+        cmocka_unit_test(test_overrides),     cmocka_unit_test(test_generated),
+        cmocka_unit_test(test_other_files),   cmocka_unit_test(test_fsl),
+        cmocka_unit_test(test_files),
     };
     return cmocka_run_group_tests(tests, test_write_volumes, NULL);
 }
