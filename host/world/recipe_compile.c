@@ -178,13 +178,14 @@ static bool compile_at(struct compiler *compiler, const json_t *list) {
 
 static bool compile_fixed(struct compiler *compiler, const struct operation *operation,
                           const json_t *list) {
+    // A noise is a sum of one octave.
+    bool is_noise = operation->op == RECIPE_NOISE || operation->op == RECIPE_NOISE_1985;
     size_t compiled = (size_t)operation->operands - (operation->whole ? 1 : 0);
     for (size_t i = 1; i <= compiled; i++)
         if (!compile_element(compiler, list, i))
             return false;
     if (!operation->whole)
-        // A noise is a sum of one.
-        return emit(compiler, operation->op, 1);
+        return emit(compiler, operation->op, is_noise ? 1 : 0);
     size_t length = enter_element(compiler, compiled + 1);
     const json_t *last = json_array_get(list, compiled + 1);
     json_int_t value = json_integer_value(last);
