@@ -32,7 +32,7 @@ static struct pel_volume *bake(const char *recipe, const struct pel_bake_options
 }
 
 static int grid_size(void) {
-    return scene_is_small() ? 5 : 20;
+    return scene_is_small() ? 4 : 12;
 }
 
 // The position of a recipe at voxel `n` of a cube.
@@ -251,7 +251,7 @@ static void test_published(void **state) {
 
 static void test_seeds(void **state) {
     (void)state;
-    struct pel_bake_options options = {.size = scene_is_small() ? 5 : 24, .seed = 5};
+    struct pel_bake_options options = {.size = scene_is_small() ? 4 : 12, .seed = 5};
     static const char *const kinds[] = {"[\"fbm\", 3, 2]", "[\"noise-1985\", 3]",
                                         "[\"worley\", 3, 1]"};
     for (int i = 0; i < 3; i++) {
@@ -389,10 +389,10 @@ static void test_presets(void **state) {
         {"tribble", 0.05, 0.35},     {"eroded-cube", 0.2, 0.6}, {"cloud", 0.03, 0.3},
         {"wood", 0.3, 0.5},          {"smoke", 0.02, 0.3},
     };
-    int size = scene_is_small() ? 7 : 32, voxels = size * size * size;
+    int size = scene_is_small() ? 5 : 24, voxels = size * size * size;
     for (size_t i = 0; i < sizeof shares / sizeof *shares; i++) {
         assert_string_equal(shares[i].name, pel_recipe_presets()[i]);
-        for (uint32_t seed = 0; seed < (scene_is_small() ? 1 : 4); seed++) {
+        for (uint32_t seed = 0; seed < (scene_is_small() ? 1 : 2); seed++) {
             struct pel_bake_options options = {.size = size, .seed = seed};
             struct pel_volume *volume = bake(shares[i].name, &options);
             const uint8_t *bytes = volume->voxels;
