@@ -3,6 +3,11 @@
 // `occupy` compares each cell's range of values with the table: a count of visible entries up to each one answers
 // whether a range holds any with two look-ups. `spread` turns that into distances, one axis at a time: the Chebyshev
 // distance separates, D(x) = min over k of max(|k|, D(x + k)).
+//
+// Included by render.cl, because a program of their own would cost another half second of a cold start.
+#ifndef OCCUPANCY_CL
+#define OCCUPANCY_CL
+
 #include "shared/grid.h"
 #include "shared/world.h"
 
@@ -70,3 +75,5 @@ __kernel void spread(__constant struct world *world, __global const uchar *in, _
     }
     out[part->cells + i] = (uchar)best;
 }
+
+#endif

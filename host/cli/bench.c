@@ -10,8 +10,8 @@
 
 // Something the cases borrow: a volume, a scene made here of such volumes, or a loaded scene with
 // volumes of its own.
-struct bench_scene {
-    struct bench_scene *next;
+struct bench_kept {
+    struct bench_kept *next;
     struct pel_volume *volume;
     struct pel_scene *made, *loaded;
 };
@@ -21,19 +21,19 @@ static bool out_of_memory(void) {
     return false;
 }
 
-static struct bench_scene *keep(struct bench *bench) {
-    struct bench_scene *kept = calloc(1, sizeof *kept);
+static struct bench_kept *keep(struct bench *bench) {
+    struct bench_kept *kept = calloc(1, sizeof *kept);
     if (!kept) {
         out_of_memory();
         return NULL;
     }
-    kept->next = bench->scenes;
-    bench->scenes = kept;
+    kept->next = bench->kept;
+    bench->kept = kept;
     return kept;
 }
 
 bool bench_keep_volume(struct bench *bench, struct pel_volume *volume) {
-    struct bench_scene *kept = keep(bench);
+    struct bench_kept *kept = keep(bench);
     if (kept)
         kept->volume = volume;
     else
@@ -42,7 +42,7 @@ bool bench_keep_volume(struct bench *bench, struct pel_volume *volume) {
 }
 
 bool bench_keep_scene(struct bench *bench, struct pel_scene *scene) {
-    struct bench_scene *kept = keep(bench);
+    struct bench_kept *kept = keep(bench);
     if (kept)
         kept->loaded = scene;
     else
@@ -75,7 +75,7 @@ struct pel_matrix bench_rotation(double degrees, const double centre[3]) {
 }
 
 struct pel_scene *bench_scene(struct bench *bench, struct pel_volume *const *volumes, int count) {
-    struct bench_scene *kept = keep(bench);
+    struct bench_kept *kept = keep(bench);
     struct pel_scene *scene = kept ? calloc(1, sizeof *scene) : NULL;
     if (!scene) {
         out_of_memory();
@@ -163,16 +163,16 @@ void bench_init(struct bench *bench) {
     *bench = (struct bench){.options.frames = 7};
 }
 
-static void release_scenes(struct bench_scene *scene) {
-    while (scene) {
-        struct bench_scene *next = scene->next;
-        for (int k = 0; scene->made && k < scene->made->instance_count; k++)
-            pel_transfer_destroy(scene->made->instances[k].transfer);
-        free(scene->made);
-        pel_scene_destroy(scene->loaded);
-        pel_volume_destroy(scene->volume);
-        free(scene);
-        scene = next;
+static void release_kept(struct bench_kept *kept) {
+    while (kept) {
+        struct bench_kept *next = kept->next;
+        for (int k = 0; kept->made && k < kept->made->instance_count; k++)
+            pel_transfer_destroy(kept->made->instances[k].transfer);
+        free(kept->made);
+        pel_scene_destroy(kept->loaded);
+        pel_volume_destroy(kept->volume);
+        free(kept);
+        kept = next;
     }
 }
 
@@ -188,6 +188,6 @@ void bench_finish(struct bench *bench) {
         }
     }
     free(bench->cases);
-    release_scenes(bench->scenes);
+    release_kept(bench->kept);
     *bench = (struct bench){0};
 }

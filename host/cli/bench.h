@@ -74,7 +74,7 @@ struct bench {
     struct bench_options options;
     struct bench_case *cases; // owned
     int case_count;
-    struct bench_scene *scenes;   // owned; see bench.c
+    struct bench_kept *kept;      // owned; see bench.c
     struct bench_engine *engines; // owned; see bench_run.c
     bool generated_task;          // the task's volume is of our own making
 };
@@ -131,7 +131,7 @@ bool bench_peer_run(const struct bench *bench, const struct bench_case *work, in
                     char problem[256]);
 
 // Starts this program once on a small scene, with the kernel caches in the folder `cache`.
-bool bench_start_run(const struct bench *bench, struct bench_case *start, const char *cache,
+bool bench_start_run(const struct bench *bench, struct bench_case *one, const char *cache,
                      double *ms, char problem[256]);
 
 // Makes an empty folder and takes it away with all that is in it. `path` has room for 256 bytes.

@@ -105,68 +105,82 @@ static void read_device(struct pel_render_statistics *statistics, const char *pa
     json_decref(object);
 }
 
-bool bench_start_run(const struct bench *bench, struct bench_case *start, const char *cache,
-                     double *ms, char problem[256]) {
-    const struct pel_renderer_options *renderer = &bench->options.renderer;
+// What the program is run with.
+struct start {
     char program[4096], scene[300], picture[300], output[300], size[32], lanes[16], group[16];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    char *arguments[20];
+};
+
+static bool prepare(struct start *start, const struct pel_renderer_options *renderer,
+                    const char *cache, char problem[256]) {
+    ssize_t length = readlink("/proc/self/exe", start->program, sizeof start->program - 1);
     if (length < 0)
         return snprintf(problem, 256, "/proc/self/exe: %s", strerror(errno)), false;
-    program[length] = '\0';
-    snprintf(scene, sizeof scene, "%s/scene.json", cache);
-    snprintf(picture, sizeof picture, "%s/picture.png", cache);
-    snprintf(output, sizeof output, "%s/output.json", cache);
-    snprintf(size, sizeof size, "%dx%d", WIDTH, HEIGHT);
-    snprintf(lanes, sizeof lanes, "%d", renderer->lanes);
-    snprintf(group, sizeof group, "%d", renderer->work_group);
-    if (!write_scene(scene))
-        return snprintf(problem, 256, "%.160s: cannot write: %s", scene, strerror(errno)), false;
-
-    char *arguments[20] = {
-        program,
+    start->program[length] = '\0';
+    snprintf(start->scene, sizeof start->scene, "%s/scene.json", cache);
+    snprintf(start->picture, sizeof start->picture, "%s/picture.png", cache);
+    snprintf(start->output, sizeof start->output, "%s/output.json", cache);
+    snprintf(start->size, sizeof start->size, "%dx%d", WIDTH, HEIGHT);
+    snprintf(start->lanes, sizeof start->lanes, "%d", renderer->lanes);
+    snprintf(start->group, sizeof start->group, "%d", renderer->work_group);
+    if (!write_scene(start->scene))
+        return snprintf(problem, 256, "%.160s: cannot write: %s", start->scene, strerror(errno)),
+               false;
+    char *always[] = {
+        start->program,
         "render",
-        scene,
+        start->scene,
         "-o",
-        picture,
+        start->picture,
         "--size",
-        size,
+        start->size,
         "--quiet",
         "--json",
         "--reader",
         (char *)report_reader(renderer->reader),
     };
-    int count = 11;
+    int count = sizeof always / sizeof *always;
+    memcpy(start->arguments, always, sizeof always);
     if (renderer->device) {
-        arguments[count++] = "--device";
-        arguments[count++] = (char *)renderer->device;
+        start->arguments[count++] = "--device";
+        start->arguments[count++] = (char *)renderer->device;
     }
     if (renderer->lanes) {
-        arguments[count++] = "--lanes";
-        arguments[count++] = lanes;
+        start->arguments[count++] = "--lanes";
+        start->arguments[count++] = start->lanes;
     }
     if (renderer->work_group) {
-        arguments[count++] = "--work-group";
-        arguments[count++] = group;
+        start->arguments[count++] = "--work-group";
+        start->arguments[count++] = start->group;
     }
+    return true;
+}
+
+bool bench_start_run(const struct bench *bench, struct bench_case *one, const char *cache,
+                     double *ms, char problem[256]) {
+    struct start start = {.arguments = {NULL}};
+    if (!prepare(&start, &bench->options.renderer, cache, problem))
+        return false;
     char texts[CACHES][320];
     char **environment = environment_with(cache, texts);
     if (!environment)
         return snprintf(problem, 256, "no memory"), false;
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output, O_WRONLY | O_CREAT | O_TRUNC,
-                                     0600);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, start.output,
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
     double begin_ms = report_clock_ms();
     pid_t child;
-    int error = posix_spawn(&child, program, &actions, NULL, arguments, environment);
+    int error = posix_spawn(&child, start.program, &actions, NULL, start.arguments, environment);
     posix_spawn_file_actions_destroy(&actions);
     free(environment);
     if (error)
-        return snprintf(problem, 256, "cannot run %.160s: %s", program, strerror(error)), false;
+        return snprintf(problem, 256, "cannot run %.160s: %s", start.program, strerror(error)),
+               false;
     if (!wait_for(child, problem))
         return false;
     *ms = report_clock_ms() - begin_ms;
-    read_device(&start->statistics, output);
+    read_device(&one->statistics, start.output);
     return true;
 }
 

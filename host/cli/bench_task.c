@@ -171,7 +171,7 @@ static int get_task(struct bench *bench, struct task *task) {
     char path[4096];
     int status;
     if (folder && (bench->options.data || find_file(path, sizeof path, folder, "task256.raw.gz")))
-        status = load_task(task, folder);
+        status = load_task(task, bench->options.data = folder);
     else
         status = make_task(bench, task);
     for (int k = 1; !status && k < COPIES; k++) {
@@ -224,13 +224,15 @@ static bool add_copies(struct bench *bench, const struct task *task, int t, cons
     return true;
 }
 
-// Case `first` again with every number of lanes and both readers.
-static bool add_variants(struct bench *bench, int first) {
+// One volume with every number of lanes and both readers. The run's own choice comes once more, so
+// that what is compared follows closely in a turn.
+static bool add_variants(struct bench *bench, const struct bench_case *like) {
     static const struct {
         const char *name;
         enum pel_reader reader;
         int lanes;
     } variants[] = {
+        {"T1, as chosen", 0, 0},
         {"T1, 1 lane", 0, 1},
         {"T1, 4 lanes", 0, 4},
         {"T1, 8 lanes", 0, 8},
@@ -238,17 +240,18 @@ static bool add_variants(struct bench *bench, int first) {
         {"T1, buffer", PEL_READER_BUFFER, 0},
         {"T1, image", PEL_READER_IMAGE, 0},
     };
+    struct bench_case first = *like;
+    int baseline = bench->case_count;
     for (size_t i = 0; i < sizeof variants / sizeof *variants; i++) {
         struct bench_case *added = bench_add(bench, "task", variants[i].name);
         if (!added)
             return false;
-        const struct bench_case *like = &bench->cases[first];
-        memcpy(added->transfer, like->transfer, sizeof added->transfer);
-        added->scene = like->scene;
-        added->width = like->width;
-        added->height = like->height;
-        added->baseline = first;
-        added->optional = true;
+        memcpy(added->transfer, first.transfer, sizeof added->transfer);
+        added->scene = first.scene;
+        added->width = first.width;
+        added->height = first.height;
+        added->baseline = i > 0 ? baseline : -1;
+        added->optional = i > 0;
         if (variants[i].reader)
             added->reader = variants[i].reader;
         if (variants[i].lanes)
@@ -267,7 +270,7 @@ int bench_add_task(struct bench *bench) {
     for (int s = 0; good && s < (given[0] ? 1 : 2); s++)
         for (int t = 0; good && t < TRANSFERS; t++)
             good = add_copies(bench, &task, t, given[0] ? given : usual[s]);
-    good = good && add_variants(bench, first);
+    good = good && add_variants(bench, &bench->cases[first]);
     for (int t = 0; t < TRANSFERS; t++)
         pel_transfer_destroy(task.transfers[t]);
     return status ? status : good ? PEL_OK : (int)PEL_ERROR_MEMORY;

@@ -61,6 +61,10 @@ struct pel_kernel *pel_kernel_build(struct pel_device *device, const char *file,
                                     const char *definitions);
 void pel_kernel_destroy(struct pel_kernel *kernel);
 
+// Another kernel of the program that `kernel` was built in: that costs no compilation. The caller
+// owns it, and it may outlive `kernel`.
+struct pel_kernel *pel_kernel_sibling(const struct pel_kernel *kernel, const char *name);
+
 // Arguments, by position.
 bool pel_kernel_set_buffer(struct pel_kernel *kernel, int index, const struct pel_buffer *buffer);
 bool pel_kernel_set_texture(struct pel_kernel *kernel, int index,

@@ -58,6 +58,23 @@ struct pel_kernel *pel_kernel_build(struct pel_device *device, const char *file,
     return kernel;
 }
 
+struct pel_kernel *pel_kernel_sibling(const struct pel_kernel *kernel, const char *name) {
+    struct pel_kernel *sibling = pel_allocate(1, sizeof *sibling);
+    if (!sibling)
+        return NULL;
+    sibling->device = kernel->device;
+    cl_int status;
+    sibling->kernel = clCreateKernel(kernel->program, name, &status);
+    if (status != CL_SUCCESS) {
+        pel_opencl_fail(status, name);
+        free(sibling);
+        return NULL;
+    }
+    clRetainProgram(kernel->program);
+    sibling->program = kernel->program;
+    return sibling;
+}
+
 void pel_kernel_destroy(struct pel_kernel *kernel) {
     if (!kernel)
         return;

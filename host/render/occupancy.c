@@ -9,12 +9,11 @@
 
 enum { GROUP = 16 };
 
-static bool build_kernels(struct pel_occupancy *occupancy, struct pel_device *device) {
-    const char *definitions = "-cl-std=CL1.2";
+static bool find_kernels(struct pel_occupancy *occupancy, const struct pel_kernel *render) {
     if (!occupancy->occupy)
-        occupancy->occupy = pel_kernel_build(device, "occupancy.cl", "occupy", definitions);
+        occupancy->occupy = pel_kernel_sibling(render, "occupy");
     if (occupancy->occupy && !occupancy->spread)
-        occupancy->spread = pel_kernel_build(device, "occupancy.cl", "spread", definitions);
+        occupancy->spread = pel_kernel_sibling(render, "spread");
     return occupancy->occupy && occupancy->spread;
 }
 
@@ -90,11 +89,12 @@ static bool derive_part(struct pel_occupancy *occupancy, const struct pel_world 
 
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,
-                          const struct pel_residency *residency, bool skip) {
+                          const struct pel_residency *residency, const struct pel_kernel *render,
+                          bool skip) {
     if (!skip || world->bytes.part_count == 0)
         return make_room(occupancy, device, 1);
     bool changed = false;
-    if (!build_kernels(occupancy, device) || !make_room(occupancy, device, world->cell_count) ||
+    if (!find_kernels(occupancy, render) || !make_room(occupancy, device, world->cell_count) ||
         !pel_mirror_update(&occupancy->visible, device, world->visible,
                            world->visible_words * sizeof *world->visible, 0, "visible entries",
                            &changed))

@@ -25,11 +25,12 @@ struct pel_occupancy {
 };
 
 // Derives the distances for a world whose bytes are in `world_buffer`, unless they are there from
-// the last time. With `skip` false only a buffer that kernels can be given is made. False: DEVICE,
-// MEMORY, BUILD.
+// the last time. The kernels for it come from the program of `render`, one that skips. With `skip`
+// false only a buffer that kernels can be given is made. False: DEVICE, MEMORY, BUILD.
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,
-                          const struct pel_residency *residency, bool skip);
+                          const struct pel_residency *residency, const struct pel_kernel *render,
+                          bool skip);
 void pel_occupancy_finish(struct pel_occupancy *occupancy);
 
 #endif

@@ -258,7 +258,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, skip) ||
+                              &renderer->residency, kernel, skip) ||
         !set_arguments(renderer, kernel, variant.voxels))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);

@@ -1,0 +1,103 @@
+// span.cl - which parts a packet of rays crosses, and which of them are active at a sample.
+//
+// A ray is cut into spans with a constant set of active parts, so the cost of a sample follows the parts
+// that are there and not those that are loaded.
+#ifndef SPAN_CL
+#define SPAN_CL
+
+#include "traverse/cursor.cl"
+
+#ifndef SKIP
+#define SKIP SKIP_NONE // how empty space is skipped
+#endif
+#if SKIP == SKIP_NONE
+#include "traverse/none.cl"
+#else
+#include "occupancy.cl"
+#include "traverse/grid.cl"
+#endif
+
+#ifndef CAPACITY
+#define CAPACITY 1 // parts the kernel has room for: 1, 8 or WORLD_PART_MAX
+#endif
+
+// With room for one part only, the compiler must see that there is only one, or it keeps the cursor in
+// memory instead of registers.
+#define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
+#define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
+
+// The parts that some lane of the packet crosses, with their cursors.
+struct crossing {
+    struct cursor cursors[CAPACITY];
+    int parts[CAPACITY];
+    int count;
+};
+
+// Finds the parts that the packet crosses and where each ray's samples begin.
+INLINE void find_crossing(__constant struct world *world, __global const uchar *cells,
+                          const struct ray *ray, struct crossing *crossing) {
+    const struct span bounds = box_span(ray, world->bounds_low, world->bounds_high);
+    real t_near = bounds.near;
+    if (!world->origin_bounds) {
+        t_near = (real)(FLT_MAX);
+        for (int p = 0; p < world->part_count; p++) {
+            const struct ray ray_voxel = transform_ray(world->parts[p].voxel_from_world, ray);
+            const struct span span =
+                box_span(&ray_voxel, world->parts[p].box_low, world->parts[p].box_high);
+            const mask nearer = MASK(span.near < span.far) & MASK(span.near < t_near);
+            t_near = CHOOSE(t_near, span.near, nearer);
+        }
+    }
+    crossing->count = 0;
+    for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
+        __constant struct part *part = &world->parts[p];
+        const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
+        const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+        struct cursor cursor = cursor_begin(world, part, &ray_voxel, &span, t_near);
+        if (any_lane(MASK(cursor.first < cursor.end)))
+            cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
+        if (any_lane(MASK(cursor.next < cursor.end))) {
+            const int c = CAPACITY == 1 ? 0 : crossing->count;
+            crossing->cursors[c] = cursor;
+            crossing->parts[c] = p;
+            crossing->count++;
+        }
+    }
+}
+
+// The parts that are active in the present span of each lane, as indices into the crossing. It lasts until some
+// lane reaches the sample `until`, where its set may change.
+struct active {
+    int list[CAPACITY];
+    int count;
+    integer until;
+};
+
+#if CAPACITY > 1
+// Finds the span that begins at sample i.
+INLINE void begin_span(struct active *active, const struct crossing *crossing, integer i,
+                       mask alive) {
+    active->count = 0;
+    active->until = (integer)(SAMPLE_NEVER);
+    for (int c = 0; c < COUNTED(crossing->count); c++) {
+        const struct cursor *cursor = &crossing->cursors[c];
+        const mask before = MASK(i < cursor->first), inside = ~before & MASK(i < cursor->end);
+        const integer change = CHOOSE(cursor->end, cursor->first, before);
+        active->until = CHOOSE(active->until, min(active->until, change), before | inside);
+        if (any_lane(inside & alive))
+            active->list[active->count++] = c;
+    }
+}
+#endif
+
+// The next sample, from i on, that may show something; SAMPLE_NEVER at the end.
+INLINE integer leap(const struct active *active, const struct crossing *crossing, integer i) {
+    integer next = active->until;
+    for (int a = 0; a < COUNTED(active->count); a++) {
+        const struct cursor *cursor = &crossing->cursors[LISTED(active->list, a)];
+        next = min(next, CHOOSE((integer)(SAMPLE_NEVER), cursor->next, MASK(i < cursor->end)));
+    }
+    return max(next, i);
+}
+
+#endif
