@@ -316,6 +316,28 @@ static void test_refusals(void **state) {
     }
 }
 
+static bool count_calls(double finished, void *user) {
+    ++*(int *)user;
+    return finished <= 1;
+}
+
+// A volume of several batches, the last one not full, has every voxel in its place.
+static void test_batches(void **state) {
+    (void)state;
+    int size = scene_is_small() ? 17 : 31, calls = 0;
+    struct pel_bake_options options = {
+        .size = size, .type = PEL_VOXEL_F32, .progress = count_calls, .user = &calls};
+    struct pel_volume *volume =
+        bake("{\"value\": [\"+\", \"x\", [\"*\", 10, \"y\"], [\"*\", 100, \"z\"]]}", &options);
+    assert_true(calls > 1);
+    for (int n = 0; n < size * size * size; n++) {
+        double p[3];
+        position(size, n, p);
+        assert_near(((float *)volume->voxels)[n], p[0] + 10 * p[1] + 100 * p[2], 1e-4);
+    }
+    pel_volume_destroy(volume);
+}
+
 static bool abandon(double finished, void *user) {
     (void)finished;
     ++*(int *)user;
@@ -423,8 +445,8 @@ int main(void) {
         cmocka_unit_test(test_operations), cmocka_unit_test(test_noises),
         cmocka_unit_test(test_published),  cmocka_unit_test(test_seeds),
         cmocka_unit_test(test_wrap),       cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_progress),   cmocka_unit_test(test_object),
-        cmocka_unit_test(test_presets),
+        cmocka_unit_test(test_progress),   cmocka_unit_test(test_batches),
+        cmocka_unit_test(test_object),     cmocka_unit_test(test_presets),
     };
     return cmocka_run_group_tests(tests, start, finish);
 }
