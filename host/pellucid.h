@@ -297,7 +297,7 @@ enum pel_extent { PEL_EXTENT_CELL, PEL_EXTENT_POINT };
 
 enum pel_filter { PEL_FILTER_LINEAR, PEL_FILTER_NEAREST };
 
-// How overlapping volumes share one sample. See docs/mixing.md for the formulae.
+// How overlapping volumes share one sample. docs/picture.md has the formulae.
 enum pel_mixing {
     PEL_MIX_SUM,  // extinctions add, colour is the extinction-weighted mean; order does not matter
     PEL_MIX_OVER, // blended front to back at each sample in the order of the list

@@ -2,6 +2,7 @@
 #include "cli/render_options.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/options.h"
@@ -75,9 +76,14 @@ static bool add_number(struct render_options *options, const char *option, const
     double value;
     if (!cli_number(option, text, &value))
         return false;
-    // Printed anew, because strtod reads more spellings than JSON has.
+    // Printed anew, because strtod reads more spellings than JSON has; with no more digits than the
+    // number needs, as messages and pictures repeat it.
     char number[32];
-    snprintf(number, sizeof number, "%.17g", value);
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(number, sizeof number, "%.*g", digits, value);
+        if (strtod(number, NULL) == value)
+            break;
+    }
     overrides_add(&options->overrides, key, number);
     return true;
 }

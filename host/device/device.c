@@ -50,9 +50,10 @@ static int select_device(const struct pel_device_info *infos, int count, const c
     list_devices(infos, count, text, sizeof text);
     if (best < 0) {
         if (selector)
-            pel_fail(PEL_ERROR_DEVICE, "no device answers to '%s'; there are %s", selector, text);
+            pel_fail(PEL_ERROR_DEVICE, "no device answers to '%s'; the devices are %s", selector,
+                     text);
         else
-            pel_fail(PEL_ERROR_DEVICE, "no usable device; there are %s", text);
+            pel_fail(PEL_ERROR_DEVICE, "no usable device; the devices are %s", text);
     } else if (!infos[best].usable) {
         pel_fail(PEL_ERROR_DEVICE, "device %s cannot be used: %s", infos[best].name,
                  infos[best].problem);

@@ -52,7 +52,8 @@ bool pel_metaimage_save(const struct pel_volume *volume, const char *path) {
     if (pel_path_has_extension(path, ".mhd") &&
         asprintf(&data_path, "%.*s.raw", (int)strlen(path) - 4, path) < 0)
         return pel_fail(PEL_ERROR_MEMORY, "cannot allocate a file name");
-    bool good = pel_save_with_header(volume, path, data_path, write_header);
+    bool good = (!data_path || pel_save_check_data(path, data_path)) &&
+                pel_save_with_header(volume, path, data_path, write_header);
     free(data_path);
     return good;
 }

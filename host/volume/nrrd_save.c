@@ -79,7 +79,8 @@ bool pel_nrrd_save(const struct pel_volume *volume, const char *path) {
         data_path = NULL;
         good = pel_fail(PEL_ERROR_MEMORY, "cannot allocate a file name");
     } else {
-        good = pel_save_with_header(volume, path, data_path, write_header);
+        good = (!detached || pel_save_check_data(path, data_path)) &&
+               pel_save_with_header(volume, path, data_path, write_header);
     }
     free(data_path);
     pel_volume_destroy(copy);

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -24,6 +25,15 @@ static bool save_one_file(const struct pel_volume *volume, const char *path,
         return false;
     }
     return pel_output_commit(&output);
+}
+
+bool pel_save_check_data(const char *header_path, const char *data_path) {
+    if (access(data_path, F_OK) != 0 || access(header_path, F_OK) == 0)
+        return true;
+    return pel_fail(PEL_ERROR_FILE,
+                    "its voxels would overwrite %s, which is there already; remove that or choose "
+                    "another name",
+                    data_path);
 }
 
 bool pel_save_with_header(const struct pel_volume *volume, const char *header_path,

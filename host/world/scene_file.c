@@ -107,6 +107,12 @@ struct pel_scene *pel_scene_from_files(const char *const *paths, int path_count,
         pel_fail(PEL_ERROR_ARGUMENT, "%d files, outside 1..%d", path_count, PEL_VOLUME_MAX);
         return NULL;
     }
+    for (int i = 0; i < path_count; i++) {
+        if (!*paths[i]) {
+            pel_fail(PEL_ERROR_ARGUMENT, "the name of a file is empty");
+            return NULL;
+        }
+    }
     if (path_count == 1 && pel_path_has_extension(paths[0], ".json"))
         return load_json(paths[0], overrides, override_count);
     for (int i = 0; i < path_count; i++) {

@@ -138,6 +138,20 @@ static bool check_place(struct pel_scene *scene, struct pel_scene_plan *plan, in
     return true;
 }
 
+// A black picture is right for these scenes, but rarely what was wanted.
+static void warn_unseen(const struct pel_scene *scene) {
+    int visible = 0;
+    for (int i = 0; i < scene->instance_count; i++) {
+        const struct pel_instance *instance = &scene->instances[i];
+        visible += !instance->hidden;
+        if (!instance->hidden && scene->statistics[instance->volume].count == 0)
+            pel_warn("%s: every voxel is absent (NaN or Inf), so nothing of it is seen",
+                     instance->name);
+    }
+    if (visible == 0)
+        pel_warn("all volumes are hidden, so the picture shows the background alone");
+}
+
 bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan) {
     for (int i = 0; i < scene->instance_count; i++)
         if (!load_volume(scene, plan, i))
@@ -146,5 +160,6 @@ bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan
         if (!settle_transfer(scene, plan, i) || !settle_pose(scene, plan, i) ||
             !check_place(scene, plan, i))
             return false;
+    warn_unseen(scene);
     return true;
 }

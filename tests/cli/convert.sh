@@ -25,6 +25,8 @@ done
 
 # Through every format and back: place and values stay.
 for extension in nrrd nhdr nii nii.gz mha mhd tif raw; do
+    # Both of them would call their voxels count.raw.
+    [ $extension = mhd ] && rm count.raw count.nhdr
     expect 0 '' convert count.bin "count.$extension" "${raw[@]}"
     # TIFF has neither position nor direction, and Pellucid says so.
     if [ $extension = tif ]; then
@@ -91,4 +93,29 @@ done <kinds
 expect 0 '' generate sphere --size 10 --spacing 0.5 --type float32 -o typed.nii.gz
 expect 0 '' info typed.nii.gz --json
 check_json 'x[0]["type"] == "float32" and max(abs(s - 0.5) for s in x[0]["spacing_mm"]) < 1e-6'
+
+# The voxels of a header never take the place of another's, nor of their own input.
+head -c 4096 /dev/urandom >a.raw
+cp a.raw kept.raw
+for extension in mhd nhdr; do
+    expect 4 'overwrite a\.raw' convert a.raw a.$extension --raw dims=16x16x16 --downsample 2
+    cmp -s a.raw kept.raw || complain "convert to $extension has overwritten its input"
+    [ ! -e a.$extension ] || complain "convert to $extension leaves a header without voxels"
+done
+expect 0 '' convert a.raw b.mhd --raw dims=16x16x16
+expect 4 'overwrite b\.raw' convert b.mhd b.nhdr --downsample 2
+expect 0 '' convert a.raw b.mhd --raw dims=16x16x16 --downsample 2
+expect 0 '' info b.mhd --json
+check_json 'x[0]["dims"] == [8, 8, 8]'
+
+# Whatever ends the program while it writes, the older file stays and nothing else is there.
+mkdir killed
+cp kept.raw killed/a.nii.gz
+for delay in 0.2 0.5 0.8; do
+    "$PELLUCID" generate box --size 300 -o killed/a.nii.gz 2>err &
+    sleep $delay
+    kill -KILL $! 2>/dev/null
+    wait $! 2>/dev/null
+    [ "$(ls -A killed)" = a.nii.gz ] || complain "a killed program leaves $(ls -A killed)"
+done
 exit $failed

@@ -106,4 +106,18 @@ cp stack.tif kept.tif
 expect 2 '^pellucid: stack\.tif: the picture would overwrite its input' render stack.tif -o stack.tif
 cmp -s stack.tif kept.tif || complain "the input was overwritten"
 [ -z "$(find . -name '*.??????' -newer stack.tif -name '*g.*')" ] || complain "temporaries are left: $(ls)"
+expect 2 '^pellucid: the name of a file is empty' render ''
+
+# Numbers come back as they were given.
+expect 2 "^pellucid: --set render\.phase=-0\.1: " render data/box.nii.gz --phase=-0.1
+
+# A picture in which nothing can be seen says so.
+expect 0 '' render data/box.nii.gz "${small[@]}" --set volumes.0.visible=false -o unseen.png
+grep -q '^pellucid: warning: all volumes are hidden' err || complain "no warning that all is hidden: $(cat err)"
+python3 -c 'import struct, sys; sys.stdout.buffer.write(struct.pack("<f", float("nan")) * 8)' >absent.bin
+expect 0 '' render absent.bin "${small[@]}" --set 'volumes.0.raw={"dims":[2,2,2],"type":"float32"}' -o unseen.png
+grep -q '^pellucid: warning: .*absent\.bin: every voxel is absent' err ||
+    complain "no warning that a volume is absent: $(cat err)"
+expect 0 '' render data/box.nii.gz "${small[@]}" -o seen.png
+[ ! -s err ] || complain "a warning about nothing: $(cat err)"
 exit $failed

@@ -145,7 +145,7 @@ static void test_metaimage(void **state) {
 
 static void test_metaimage_header(void **state) {
     (void)state;
-    damage_saved("a.mhd", "a.mhd");
+    damage_saved("b.mhd", "b.mhd");
 }
 
 static void test_sidecar(void **state) {
