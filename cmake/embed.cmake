@@ -1,6 +1,7 @@
-# embed.cmake - writes the kernel files into one C table, name and text.
-# cmake -DROOT=dir -DFILES="a;b" -DOUT=table.c -P embed.cmake
-set(table "// Made from the files below kernels/ by cmake/embed.cmake.\n#include \"device/kernel_table.h\"\n\n")
+# embed.cmake - writes text files into one C table, name and text.
+# cmake -DROOT=dir -DFILES="a;b" -DHEADER=device/kernel_table.h -DTABLE=pel_kernel -DOUT=table.c -P embed.cmake
+# The header declares struct TABLE_file {name, text} and TABLE_table.
+set(table "// Made from the files below ${ROOT} by cmake/embed.cmake.\n#include \"${HEADER}\"\n\n")
 set(rows "")
 set(index 0)
 foreach(file IN LISTS FILES)
@@ -10,5 +11,5 @@ foreach(file IN LISTS FILES)
     string(APPEND rows "    {\"${file}\", text_${index}},\n")
     math(EXPR index "${index} + 1")
 endforeach()
-string(APPEND table "\nconst struct pel_kernel_file pel_kernel_table[] = {\n${rows}    {0, 0},\n};\n")
+string(APPEND table "\nconst struct ${TABLE}_file ${TABLE}_table[] = {\n${rows}    {0, 0},\n};\n")
 file(WRITE ${OUT} "${table}")

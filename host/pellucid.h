@@ -612,6 +612,33 @@ PEL_API struct pel_image *pel_stereo_compose(const struct pel_stereo *stereo,
                                              const struct pel_image *left,
                                              const struct pel_image *right);
 
+// ---- Hypertextures -----------------------------------------------------------------------------
+
+// How to bake a hypertexture (docs/hypertexture.md). Zero-initialise for the defaults.
+struct pel_bake_options {
+    int size;                        // voxels along the longest side; 0 = 64
+    enum pel_voxel_type type;        // U8 (the default), U16 or F32
+    uint32_t seed;                   // of all noises; 0 = the permutation Perlin published
+    double time;                     // the recipe's `time`
+    bool wrap;                       // integers keep their low bits where they would be clamped
+    const struct pel_volume *object; // what the recipe's `object` reads, borrowed; the result lies
+                                     // where this does, otherwise in a cube of 100 mm
+    pel_progress_callback progress;  // may be NULL
+    void *user;
+};
+
+// Ready-made recipes by name; the list ends with NULL. "noisy-sphere", "fireball", "marble",
+// "tribble", "eroded-cube", "cloud", "wood", "smoke".
+PEL_API const char *const *pel_recipe_presets(void);
+
+// Works out a recipe at every voxel of a new volume, on the renderer's device. `recipe` is a
+// preset, the path of a file (it has a '/' or ends in .json), or the JSON text itself (it begins
+// with '{'). Densities 0..1 become 0..255 or 0..65535 in integers. The same recipe, options, device
+// give the same bytes. NULL on failure (ARGUMENT, FILE, FORMAT with FILE:LINE:COLUMN: KEY, DEVICE,
+// MEMORY).
+PEL_API struct pel_volume *pel_renderer_bake(struct pel_renderer *renderer, const char *recipe,
+                                             const struct pel_bake_options *options);
+
 // ---- Images ------------------------------------------------------------------------------------
 
 struct pel_image_options {

@@ -1,7 +1,29 @@
 // describe.cl - the device's own idea of the structs it shares with the host, for the test that compares the two.
+#include "shared/recipe.h"
 #include "shared/world.h"
 
 #define OFFSET(type, member) ((uint)((__private char *)&((type *)&space)->member - (__private char *)&space))
+
+// The same for a recipe, after the world's.
+void describe_recipe(__global uint *out) {
+    struct recipe space;
+    *out++ = sizeof(struct instruction);
+    *out++ = sizeof(struct recipe);
+    *out++ = OFFSET(struct recipe, gradients);
+    *out++ = OFFSET(struct recipe, grid_start);
+    *out++ = OFFSET(struct recipe, grid_step);
+    *out++ = OFFSET(struct recipe, object_scale);
+    *out++ = OFFSET(struct recipe, object_bias);
+    *out++ = OFFSET(struct recipe, grid_dims);
+    *out++ = OFFSET(struct recipe, object_dims);
+    *out++ = OFFSET(struct recipe, code);
+    *out++ = OFFSET(struct recipe, permutation);
+    *out++ = OFFSET(struct recipe, length);
+    *out++ = OFFSET(struct recipe, seed);
+    *out++ = OFFSET(struct recipe, time);
+    *out++ = OFFSET(struct recipe, object_low);
+    *out++ = OFFSET(struct recipe, object_span);
+}
 
 // Writes the sizes and offsets in the order in which tests/kernel/layout.c lists them.
 __kernel void describe(__global uint *out) {
@@ -66,4 +88,5 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, lamp_count);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
+    describe_recipe(out);
 }

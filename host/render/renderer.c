@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "device/device.h"
+#include "render/bake.h"
 #include "render/frame.h"
 #include "render/mirror.h"
 #include "render/occupancy.h"
@@ -37,6 +38,7 @@ struct pel_renderer {
     struct pel_mirror world, tables;
     struct pel_occupancy occupancy;
     struct pel_resolve resolve;
+    struct pel_kernel *bake; // NULL until the first hypertexture
     struct pel_buffer *picture, *sample_counts;
     size_t picture_bytes, sample_counts_bytes;
     double tiles_per_ms; // as the last frame ran; 0 = unknown
@@ -423,6 +425,12 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     return image;
 }
 
+struct pel_volume *pel_renderer_bake(struct pel_renderer *renderer, const char *recipe,
+                                     const struct pel_bake_options *options) {
+    static const struct pel_bake_options defaults;
+    return pel_bake(renderer->device, &renderer->bake, recipe, options ? options : &defaults);
+}
+
 struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *options) {
     struct pel_renderer_options chosen = options ? *options : (struct pel_renderer_options){0};
     int lanes = chosen.lanes, group = chosen.work_group;
@@ -460,6 +468,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_buffer_destroy(renderer->sample_counts);
     for (int i = 0; i < KERNEL_CACHE; i++)
         pel_kernel_destroy(renderer->kernels[i].kernel);
+    pel_kernel_destroy(renderer->bake);
     pel_device_close(renderer->device);
     free(renderer);
 }

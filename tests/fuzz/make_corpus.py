@@ -303,6 +303,22 @@ def transfer():
                            "RGBPoints": [-1, 0.2, 0.3, 0.7, 1, 0.7, 0, 0.1]}])
 
 
+def recipe():
+    def seed(name, value, **more):
+        put("recipe", name, json.dumps({"value": value, **more}))
+    seed("number", 0.5)
+    seed("names", ["+", "x", "y", "z", "radius", "time", "object", "object_value"])
+    seed("arithmetic", ["/", ["-", ["*", "x", 2, 3], ["-", "y"]], ["min", 1, ["max", "x", "y"]]])
+    seed("functions", ["+"] + [[name, "x"] for name in ("abs", "sin", "cos", "sqrt", "exp", "floor", "fract")] +
+         [[name, 0.3, "x"] for name in ("pow", "bias", "gain")] +
+         [[name, "x", "y", "z"] for name in ("clamp", "smoothstep", "mix")])
+    seed("objects", ["max", ["sphere", 0.5, 0.1], ["box", 0.5, 0.4, 0.3, 0.1], ["torus", 0.7, 0.2, 0.1]])
+    seed("noises", ["+", ["noise", 2], ["noise-1985", 3], ["fbm", 2, 4], ["turbulence", 2, 12], ["ridged", "x", 1],
+                    ["worley", 4, 4]])
+    seed("places", ["at", [["+", "x", 1], 2, "z"], ["at", ["y", "x", 0], ["sphere", 1, 1]]])
+    seed("definitions", ["+", "a", "b"], define={"a": ["noise", 2], "b": ["*", "a", "a"]}, comment="two")
+
+
 def transform():
     put("transform", "euler", "#Insight Transform File V1.0\n#Transform 0\n"
         "Transform: Euler3DTransform_double_3_3\nParameters: 0.1 -0.2 0.3 4 5 6\n"
@@ -351,5 +367,5 @@ def scene():
         dict(file, transfer="nowhere.json")]})
 
 
-for make in (nrrd, nifti, metaimage, raw, tiff, pvm, transfer, transform, scene):
+for make in (nrrd, nifti, metaimage, raw, tiff, pvm, transfer, recipe, transform, scene):
     make()

@@ -1,5 +1,6 @@
 // layout.c - the structs that host and kernels share have the same sizes and offsets on the device.
 #include "device/device.h"
+#include "shared/recipe.h"
 #include "shared/world.h"
 #include "support/test.h"
 
@@ -73,6 +74,22 @@ static const struct {
     AT(world, lamp_count),
     AT(world, lamps),
     AT(world, parts),
+    SIZE(instruction),
+    SIZE(recipe),
+    AT(recipe, gradients),
+    AT(recipe, grid_start),
+    AT(recipe, grid_step),
+    AT(recipe, object_scale),
+    AT(recipe, object_bias),
+    AT(recipe, grid_dims),
+    AT(recipe, object_dims),
+    AT(recipe, code),
+    AT(recipe, permutation),
+    AT(recipe, length),
+    AT(recipe, seed),
+    AT(recipe, time),
+    AT(recipe, object_low),
+    AT(recipe, object_span),
 };
 
 enum { COUNT = sizeof host / sizeof *host };
