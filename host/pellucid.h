@@ -18,6 +18,8 @@
 //   matching `destroy`. Every destroy function accepts NULL.
 // - Options are structs passed by pointer. A member that is zero takes its default, and NULL takes
 //   all of them.
+// - Files are read and written with a point in their numbers: a program that calls setlocale leaves
+//   LC_NUMERIC at "C".
 // - An object may be used by one thread at a time; different objects by different threads.
 #ifndef PELLUCID_H
 #define PELLUCID_H
