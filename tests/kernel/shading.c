@@ -87,11 +87,11 @@ static void check_variant(enum pel_reader reader, int lanes, int start, int stri
 static void test_variants(void **state) {
     (void)state;
     check_variant(PEL_READER_BUFFER, 1, 1, 14);
-    check_variant(PEL_READER_BUFFER, 4, 4, 14);
-    check_variant(PEL_READER_BUFFER, 8, 9, 14);
-    check_variant(PEL_READER_BUFFER, 16, 0, 8);
+    check_variant(PEL_READER_BUFFER, 4, 18, 14);
+    check_variant(PEL_READER_BUFFER, 8, 8, 24);
+    check_variant(PEL_READER_BUFFER, 16, 24, 24);
     check_variant(PEL_READER_IMAGE, 1, 5, 12);
-    check_variant(PEL_READER_IMAGE, 16, 21, 7);
+    check_variant(PEL_READER_IMAGE, 4, 21, 24);
 }
 
 // A volume in slabs has the gradients of a whole one, also where it is cut.
