@@ -62,7 +62,7 @@ static void test_shorts(void **state) {
 static void test_refusals(void **state) {
     (void)state;
     static const char *const seeds[][2] = {
-        {"nrrd/regress_kinds_first", "'kinds: do' stands before the dimension"},
+        {"nrrd/regress_kinds_first", "'kinds: domain' stands before the dimension"},
         {"nrrd/regress_quote", "a quote without end in 'labels: \"a\" \"b\" \"c'"},
         {"nrrd/regress_space_units", "4 space units for 3 dimensions of space"},
         {"nrrd/regress_kind_size", "axis 0 has 6 elements, its kind RGB-color needs 3"},
