@@ -51,6 +51,7 @@ struct pel_volume *pel_source_read_volume(struct pel_source *source, const char 
                                           int components, bool swap);
 
 // Inflates zlib or gzip data to exactly `out_bytes`; false (FORMAT) when it is damaged or shorter.
+// What it holds beyond is ignored.
 bool pel_inflate(void *out, size_t out_bytes, const void *in, size_t in_bytes);
 
 #endif

@@ -2,6 +2,7 @@
 #include "support/file.h"
 
 #include <math.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include "base/file.h"
@@ -56,6 +57,8 @@ struct test_bytes test_deflate(const void *bytes, size_t count, int window_bits)
 
 const char *test_write(const char *leaf, const void *bytes, size_t count) {
     const char *path = test_temporary_path(leaf);
+    // A new file, because some file systems write a truncated one out at once.
+    unlink(path);
     FILE *stream = fopen(path, "wb");
     if (!stream || (count > 0 && fwrite(bytes, 1, count, stream) != count) || fclose(stream) != 0)
         abort();
