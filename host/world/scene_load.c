@@ -2,6 +2,7 @@
 // settles what depends on them.
 #include "world/scene_plan.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -124,12 +125,26 @@ static bool settle_pose(struct pel_scene *scene, struct pel_scene_plan *plan, in
     return true;
 }
 
+// A file's placement may be anything; devices need one that floats can hold.
+static bool check_place(struct pel_scene *scene, struct pel_scene_plan *plan, int index) {
+    struct pel_bounds bounds;
+    pel_instance_bounds(scene, index, &bounds);
+    for (int axis = 0; axis < 3; axis++) {
+        double reach = fmax(-bounds.low[axis], bounds.high[axis]);
+        if (!(reach <= PEL_COORDINATE_MAX && bounds.low[axis] <= bounds.high[axis]))
+            return pel_node_fail(&plan->volume[index].node, "its box reaches to %g mm, beyond %g",
+                                 reach, PEL_COORDINATE_MAX);
+    }
+    return true;
+}
+
 bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan) {
     for (int i = 0; i < scene->instance_count; i++)
         if (!load_volume(scene, plan, i))
             return false;
     for (int i = 0; i < scene->instance_count; i++)
-        if (!settle_transfer(scene, plan, i) || !settle_pose(scene, plan, i))
+        if (!settle_transfer(scene, plan, i) || !settle_pose(scene, plan, i) ||
+            !check_place(scene, plan, i))
             return false;
     return true;
 }

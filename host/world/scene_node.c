@@ -15,8 +15,8 @@
 
 enum { KEY_BYTES = 256, PLACE_BYTES = 1024, VALUE_BYTES = 48 };
 
-const struct pel_range pel_any_number = {.low = -INFINITY, .high = INFINITY};
-const struct pel_range pel_positive_number = {.high = INFINITY, .low_open = true};
+const struct pel_range pel_any_number = {.low = -PEL_COORDINATE_MAX, .high = PEL_COORDINATE_MAX};
+const struct pel_range pel_positive_number = {.high = PEL_COORDINATE_MAX, .low_open = true};
 const struct pel_range pel_unit_number = {.high = 1};
 
 // ---- Places ------------------------------------------------------------------------------------
@@ -137,13 +137,9 @@ static bool check_range(const struct pel_scene_node *node, const struct pel_rang
     bool high = range->high_open ? number < range->high : number <= range->high;
     if (low && high)
         return true;
-    char above[VALUE_BYTES] = "", below[VALUE_BYTES] = "";
-    if (isfinite(range->low))
-        snprintf(above, sizeof above, "%s %g", range->low_open ? "above" : "at least", range->low);
-    if (isfinite(range->high))
-        snprintf(below, sizeof below, "%s %g", range->high_open ? "below" : "at most", range->high);
-    return pel_node_fail(node, "must be %s%s%s, not %g", above, *above && *below ? " and " : "",
-                         below, number);
+    return pel_node_fail(node, "must be %s %g and %s %g, not %g",
+                         range->low_open ? "above" : "at least", range->low,
+                         range->high_open ? "below" : "at most", range->high, number);
 }
 
 static bool check_number(const struct pel_scene_node *node, const struct pel_range *range,

@@ -35,6 +35,10 @@ struct pel_range {
     bool low_open, high_open;
 };
 
+// The largest coordinate or length, in millimetres: devices compute in floats, and their squares
+// must stay finite.
+#define PEL_COORDINATE_MAX 1e9
+
 extern const struct pel_range pel_any_number, pel_positive_number, pel_unit_number;
 
 // Fails with a sentence about a node, or puts its place before a sentence that is there already.
