@@ -32,7 +32,7 @@ static struct test_bytes compress(const struct test_bytes *plain, unsigned skip,
             planes[count++] = plain->bytes[i];
     for (size_t i = 0; i < count; i++) {
         int expected = i > 0 ? planes[i - 1] : 0;
-        if (i > strip)
+        if (strip > 1 && i > strip)
             expected += planes[i - strip] - planes[i - strip - 1];
         differences[i] = (planes[i] - expected) & 255;
     }
