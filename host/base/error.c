@@ -14,6 +14,14 @@ static _Thread_local char last_message[MESSAGE_BYTES];
 static pel_warning_callback warning_callback;
 static void *warning_user;
 
+// Sentences quote what stands in files; a line break or an escape sequence in there must not reach
+// a terminal. UTF-8 passes.
+static void make_printable(char *message) {
+    for (; *message; message++)
+        if ((unsigned char)*message < ' ' || *message == 0x7f)
+            *message = strchr("\t\n\r", *message) ? ' ' : '?';
+}
+
 bool pel_fail(enum pel_error code, const char *format, ...) {
     // The sentence is made aside, because an argument may be the old message itself.
     char message[MESSAGE_BYTES];
@@ -21,6 +29,7 @@ bool pel_fail(enum pel_error code, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
+    make_printable(message);
     last_code = code;
     memcpy(last_message, message, sizeof message);
     return false;
@@ -32,6 +41,7 @@ bool pel_fail_in(const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(context, sizeof context, format, arguments);
     va_end(arguments);
+    make_printable(context);
     char message[MESSAGE_BYTES];
     snprintf(message, sizeof message, "%s: %.*s", context, MESSAGE_BYTES / 2 - 4, last_message);
     memcpy(last_message, message, sizeof message);
@@ -46,6 +56,7 @@ void pel_warn(const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
+    make_printable(message);
     warning_callback(message, warning_user);
 }
 

@@ -61,12 +61,13 @@ static bool check_quotes(const char *line, const char *end, const struct progres
 }
 
 // Fields that come for each axis and are kept in memory while they are read.
-static bool check_order(const char *line, const struct progress *progress) {
+static bool check_order(const char *line, const char *end, const struct progress *progress) {
     bool counts_axes = field_value(line, "centers", "centerings") ||
                        field_value(line, "kinds", "kinds") ||
                        field_value(line, "data file", "datafile");
     return !counts_axes || progress->dimension ||
-           pel_fail(PEL_ERROR_FORMAT, "'%.9s' stands before the dimension", line);
+           pel_fail(PEL_ERROR_FORMAT, "'%.*s' stands before the dimension",
+                    (int)(end - line < 40 ? end - line : 40), line);
 }
 
 // Spaces with time have names that end in T or in -time.
@@ -127,7 +128,7 @@ bool pel_nrrd_check_header(const char *text, size_t bytes) {
             return pel_fail(PEL_ERROR_FORMAT, "a carriage return within a header line");
         while (end > line && strchr(" \t\r", end[-1]))
             end--;
-        if (!check_quotes(line, end, &progress) || !check_order(line, &progress))
+        if (!check_quotes(line, end, &progress) || !check_order(line, end, &progress))
             return false;
         note(line, end, &progress);
         // What follows a list are its names.

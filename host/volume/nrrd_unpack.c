@@ -23,7 +23,7 @@ struct stream {
     z_stream gzip_state;
     bz_stream bzip2_state;
     char *in;
-    size_t in_left;
+    size_t in_left, done; // bytes not yet read, and bytes that came out
 };
 
 static bool stream_open(struct stream *stream, bool bzip2, char *in, size_t in_bytes) {
@@ -74,11 +74,14 @@ static bool stream_read(struct stream *stream, char *out, size_t room, size_t *g
         unsigned in_part = stream->in_left < CHUNK ? (unsigned)stream->in_left : CHUNK;
         unsigned out_part = room - *got < CHUNK ? (unsigned)(room - *got) : CHUNK;
         unsigned in_before = in_part, out_before = out_part;
-        if (!stream_step(stream, out + *got, &in_part, &out_part))
-            return pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged");
+        bool good = stream_step(stream, out + *got, &in_part, &out_part);
         stream->in += in_before - in_part;
         stream->in_left -= in_before - in_part;
+        stream->done += out_before - out_part;
         *got += out_before - out_part;
+        if (!good)
+            return pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged after %zu bytes",
+                            stream->done);
         // Nothing came and nothing went: the file ends before its compressed data does.
         stream->end = stream->end || (in_part == in_before && out_part == out_before);
     }

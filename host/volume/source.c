@@ -2,7 +2,6 @@
 // size.
 #include "volume/source.h"
 
-#include <bzlib.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -188,35 +187,6 @@ bool pel_inflate(void *out, size_t out_bytes, const void *in, size_t in_bytes) {
     }
     inflateEnd(&stream);
     if (status == Z_DATA_ERROR || status == Z_NEED_DICT)
-        return pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged after %zu bytes",
-                        out_bytes - out_left);
-    if (out_left > 0)
-        return pel_fail(PEL_ERROR_FORMAT, "compressed data ends after %zu of %zu bytes",
-                        out_bytes - out_left, out_bytes);
-    return true;
-}
-
-bool pel_bunzip2(void *out, size_t out_bytes, const void *in, size_t in_bytes) {
-    bz_stream stream = {.next_in = (char *)in, .next_out = out};
-    if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK)
-        return pel_fail(PEL_ERROR_MEMORY, "cannot start decompression");
-    size_t in_left = in_bytes, out_left = out_bytes;
-    int status = BZ_OK;
-    // bzip2 does not mind standing still, so the loop has to see that it does.
-    for (bool moved = true; status == BZ_OK && moved;) {
-        unsigned in_part = (unsigned)(in_left < CHUNK ? in_left : CHUNK);
-        unsigned out_part = (unsigned)(out_left < CHUNK ? out_left : CHUNK);
-        stream.avail_in = in_part;
-        stream.avail_out = out_part;
-        status = BZ2_bzDecompress(&stream);
-        in_left -= in_part - stream.avail_in;
-        out_left -= out_part - stream.avail_out;
-        moved = stream.avail_in != in_part || stream.avail_out != out_part;
-    }
-    BZ2_bzDecompressEnd(&stream);
-    if (status == BZ_MEM_ERROR)
-        return pel_fail(PEL_ERROR_MEMORY, "no memory to decompress");
-    if (status != BZ_OK && status != BZ_STREAM_END)
         return pel_fail(PEL_ERROR_FORMAT, "compressed data is damaged after %zu bytes",
                         out_bytes - out_left);
     if (out_left > 0)

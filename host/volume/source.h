@@ -50,9 +50,8 @@ struct pel_volume *pel_source_read_volume(struct pel_source *source, const char 
                                           const int64_t dims[3], enum pel_element element,
                                           int components, bool swap);
 
-// Inflate zlib or gzip data, or bzip2 data, to exactly `out_bytes`; false (FORMAT) when the data is
-// damaged or shorter. What it holds beyond is ignored.
+// Inflates zlib or gzip data to exactly `out_bytes`; false (FORMAT) when it is damaged or shorter.
+// What it holds beyond is ignored.
 bool pel_inflate(void *out, size_t out_bytes, const void *in, size_t in_bytes);
-bool pel_bunzip2(void *out, size_t out_bytes, const void *in, size_t in_bytes);
 
 #endif

@@ -70,6 +70,7 @@ def nrrd():
                                 "axis mins: 0 0\naxis maxs: 1 1\nlabels: \"x\" \"y\"\n") + BYTES)
     # teem loses memory over these; they must not reach it.
     put("nrrd", "regress_kinds_first", "NRRD0004\nkinds: domain\ndimension: 1\nsizes: 1\n")
+    put("nrrd", "regress_newline", "NRRD0004\nkinds: 3\nspace: RAS\n")
     put("nrrd", "regress_quote", header("uint8", "raw", more='labels: "a" "b" "c\n') + BYTES)
     put("nrrd", "regress_space_units", header("uint8", "raw", more=space +
                                               'space units: "a" "b" "c" "d"\n') + BYTES)
