@@ -2,6 +2,7 @@
 #include "base/file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -47,27 +48,76 @@ char *pel_file_read(const char *path, size_t limit, size_t *bytes) {
     return text;
 }
 
-bool pel_output_open(struct pel_output *output, const char *path) {
-    *output = (struct pel_output){.path = pel_copy_text(path)};
-    if (!output->path)
-        return false;
-    if (asprintf(&output->temporary, "%s.XXXXXX", path) < 0) {
+// A file without a name in the folder of `path`: whatever ends the program, nothing of it stays.
+// Until it is named it is known by its place among this process's open files.
+static int open_nameless(struct pel_output *output) {
+    const char *slash = strrchr(output->path, '/');
+    char *folder = slash ? strndup(output->path, (size_t)(slash - output->path) + 1) : NULL;
+    int descriptor =
+        slash && !folder ? -1 : open(folder ? folder : ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    free(folder);
+    if (descriptor < 0)
+        return -1;
+    if (asprintf(&output->temporary, "/proc/self/fd/%d", descriptor) < 0)
         output->temporary = NULL;
-        pel_output_abandon(output);
-        return pel_fail(PEL_ERROR_MEMORY, "cannot allocate a file name");
+    if (!output->temporary || access(output->temporary, F_OK) != 0) {
+        free(output->temporary);
+        output->temporary = NULL;
+        close(descriptor);
+        return -1;
+    }
+    output->nameless = true;
+    return descriptor;
+}
+
+// Where the file system knows no such files, one that carries its name with a suffix.
+static int open_named(struct pel_output *output) {
+    if (asprintf(&output->temporary, "%s.XXXXXX", output->path) < 0) {
+        output->temporary = NULL;
+        pel_fail(PEL_ERROR_MEMORY, "cannot allocate a file name");
+        return -1;
     }
     int descriptor = mkstemp(output->temporary);
     if (descriptor < 0) {
-        pel_fail(PEL_ERROR_FILE, "%s: cannot write: %s", path, strerror(errno));
+        pel_fail(PEL_ERROR_FILE, "%s: cannot write: %s", output->path, strerror(errno));
         free(output->temporary);
         output->temporary = NULL;
-        pel_output_abandon(output);
-        return false;
+        return -1;
     }
     // mkstemp makes private files; a picture gets the rights any new file gets here.
     mode_t mask = umask(0);
     umask(mask);
     fchmod(descriptor, 0666 & ~mask);
+    return descriptor;
+}
+
+// Gives a nameless file a name to rename, for no call replaces an older file by it.
+static bool give_name(struct pel_output *output) {
+    char *name = NULL;
+    if (asprintf(&name, "%s.%ld.%d", output->path, (long)getpid(), fileno(output->stream)) < 0)
+        return false;
+    unlink(name);
+    if (linkat(AT_FDCWD, output->temporary, AT_FDCWD, name, AT_SYMLINK_FOLLOW) != 0) {
+        free(name);
+        return false;
+    }
+    free(output->temporary);
+    output->temporary = name;
+    output->nameless = false;
+    return true;
+}
+
+bool pel_output_open(struct pel_output *output, const char *path) {
+    *output = (struct pel_output){.path = pel_copy_text(path)};
+    if (!output->path)
+        return false;
+    int descriptor = open_nameless(output);
+    if (descriptor < 0)
+        descriptor = open_named(output);
+    if (descriptor < 0) {
+        pel_output_abandon(output);
+        return false;
+    }
     output->stream = fdopen(descriptor, "wb");
     if (!output->stream) {
         close(descriptor);
@@ -84,12 +134,10 @@ static void output_free(struct pel_output *output) {
 }
 
 bool pel_output_commit(struct pel_output *output) {
-    bool good = true;
-    if (output->stream) {
-        good = !ferror(output->stream);
-        good = fclose(output->stream) == 0 && good;
-        output->stream = NULL;
-    }
+    bool good = !ferror(output->stream) && fflush(output->stream) == 0;
+    good = good && (!output->nameless || give_name(output));
+    good = fclose(output->stream) == 0 && good;
+    output->stream = NULL;
     if (!good || rename(output->temporary, output->path) != 0) {
         pel_fail(PEL_ERROR_FILE, "%s: cannot write: %s", output->path, strerror(errno));
         pel_output_abandon(output);
@@ -102,7 +150,7 @@ bool pel_output_commit(struct pel_output *output) {
 void pel_output_abandon(struct pel_output *output) {
     if (output->stream)
         fclose(output->stream);
-    if (output->temporary)
+    if (output->temporary && !output->nameless)
         unlink(output->temporary);
     output_free(output);
 }

@@ -18,7 +18,8 @@ bool pel_file_size(const char *path, size_t *bytes);
 // pel_output_commit. Until then an old file of that name stays untouched.
 struct pel_output {
     char *path, *temporary; // owned
-    FILE *stream;           // NULL once a library has taken over writing to `temporary`
+    FILE *stream;           // a library may open `temporary` itself and write there instead
+    bool nameless;          // `temporary` is no name in a folder yet
 };
 
 // Opens the temporary (FILE on failure). Afterwards call exactly one of commit and abandon.

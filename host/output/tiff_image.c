@@ -76,9 +76,6 @@ bool pel_tiff_image_save(const struct pel_image *image, const char *path) {
     struct pel_output output;
     if (!pel_output_open(&output, path))
         return false;
-    // libtiff opens the temporary itself.
-    fclose(output.stream);
-    output.stream = NULL;
     pel_error_clear();
     TIFF *tiff = open_tiff(output.temporary);
     bool good = tiff && write_pixels(tiff, image);

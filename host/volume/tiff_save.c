@@ -116,8 +116,6 @@ bool pel_tiff_save(const struct pel_volume *volume, const char *path) {
     struct pel_output output;
     if (!pel_output_open(&output, path))
         return false;
-    fclose(output.stream);
-    output.stream = NULL;
     if (!write_all(output.temporary, volume)) {
         pel_output_abandon(&output);
         return pel_fail_in("%s", path);

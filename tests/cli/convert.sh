@@ -107,4 +107,15 @@ expect 4 'overwrite b\.raw' convert b.mhd b.nhdr --downsample 2
 expect 0 '' convert a.raw b.mhd --raw dims=16x16x16 --downsample 2
 expect 0 '' info b.mhd --json
 check_json 'x[0]["dims"] == [8, 8, 8]'
+
+# Whatever ends the program while it writes, the older file stays and nothing else is there.
+mkdir killed
+cp kept.raw killed/a.nii.gz
+for delay in 0.2 0.5 0.8; do
+    "$PELLUCID" generate box --size 300 -o killed/a.nii.gz 2>err &
+    sleep $delay
+    kill -KILL $! 2>/dev/null
+    wait $! 2>/dev/null
+    [ "$(ls -A killed)" = a.nii.gz ] || complain "a killed program leaves $(ls -A killed)"
+done
 exit $failed
