@@ -78,6 +78,9 @@ typedef LANES_JOIN(int, LANES) mask;
 #define lanes_as_float8 as_float8
 #define lanes_as_float16 as_float16
 
+// Oclgrind reads a scalar second operand of min and max on integers as if it were a vector, so both operands are of
+// one type everywhere.
+
 // The built-in clamp has to care for NaN; where there is none, a comparison and a choice are one instruction.
 #define AT_LEAST(v, low) CHOOSE((v), (low), MASK((v) < (low)))
 #define AT_MOST(v, high) CHOOSE((v), (high), MASK((v) > (high)))

@@ -34,7 +34,7 @@ INLINE integer cursor_leap(__constant struct part *part, __global const uchar *c
     const integer cell = cz * part->cell_slice + cy * part->cell_row + cx + (int)part->cells;
     const integer distance = TO_INTEGER(GATHER(uchar, LOAD_CELL, cell));
 #if SKIP == SKIP_GRID
-    const integer reach = min(distance, 1);
+    const integer reach = min(distance, (integer)(1));
 #else
     const integer reach = distance;
 #endif
@@ -42,7 +42,8 @@ INLINE integer cursor_leap(__constant struct part *part, __global const uchar *c
     count = fmin(count, samples_to_exit(y, cursor->dy, cy, reach));
     count = fmin(count, samples_to_exit(z, cursor->dz, cz, reach));
     // A hundredth of a sample less than computed, so that rounding can only cost another look.
-    const integer leap = max(TO_INTEGER(ceil(fmin(count, 1e8f) - 0.01f)), 1);
+    const integer leap =
+        max(TO_INTEGER(ceil(fmin(count, (real)(1e8f)) - 0.01f)), (integer)(1));
     const integer next = start + CHOOSE((integer)(0), leap, MASK(distance > 0));
     return CHOOSE((integer)(SAMPLE_NEVER), next, MASK(i < cursor->end) & MASK(next < cursor->end));
 }

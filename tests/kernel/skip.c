@@ -25,10 +25,8 @@ static struct pel_scene *scene_of_crests(void) {
 
 static void test_same_picture(void **state) {
     (void)state;
-    // Oclgrind alone loses a few pixels of packets under `grid`.
-    int widest = scene_is_small() ? 1 : 4;
     static const enum pel_skip skips[] = {PEL_SKIP_NONE, PEL_SKIP_GRID, PEL_SKIP_DISTANCE};
-    for (int lanes = 1; lanes <= widest; lanes += 3) {
+    for (int lanes = 1; lanes <= 4; lanes += 3) {
         struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, lanes);
         struct pel_scene *scene = scene_of_crests();
         struct pel_image *pictures[3];
