@@ -1,7 +1,7 @@
 // occupancy.cl - from a transfer function to the cells of a part in which something may be visible.
 //
-// `occupy` compares each cell's range of values with the table: a count of visible entries up to each one answers
-// whether a range holds any with two look-ups. `spread` turns that into distances, one axis at a time: the Chebyshev
+// The first pass compares each cell's range of values with the table: a count of visible entries up to each one answers
+// whether a range holds any with two look-ups. Three more turn that into distances, one axis at a time: the Chebyshev
 // distance separates, D(x) = min over k of max(|k|, D(x + k)).
 //
 // Included by render.cl, because a program of their own would cost another half second of a cold start.
@@ -22,48 +22,31 @@ static struct cell_dims cell_dims(__constant struct part *part, uint count) {
     return dims;
 }
 
-// Writes 0 for a cell in which something may be visible, else the largest distance. `count` is the number of the
-// part's cells; `linear` tells that the kernel interpolates between entries.
-__kernel void occupy(__constant struct world *world, __global const float2 *ranges,
-                     __global const uint *visible, __global uchar *cells, const uint part_index,
-                     const uint count, const uint linear) {
-    const uint i = get_global_id(0);
-    if (i >= count)
-        return;
-    __constant struct part *part = &world->parts[part_index];
-    const float2 range = ranges[part->ranges + i];
-    uchar distance = CELL_DISTANCE_MAX;
+// 0 for a cell in which something may be visible, else the largest distance.
+static uchar occupied(__constant struct part *part, float2 range, __global const uint *counts,
+                      bool linear) {
     // A cell without any value has its ends the wrong way round.
-    if (range.x <= range.y) {
-        const float a = range.x * part->table_scale + part->table_bias;
-        const float b = range.y * part->table_scale + part->table_bias;
-        // Interpolation rounds; one value everywhere does not.
-        const float slack = range.x < range.y ? 1e-3f : 0.0f;
-        const float low = clamp(fmin(a, b) - slack, 0.0f, part->table_last);
-        const float high = clamp(fmax(a, b) + slack, 0.0f, part->table_last);
-        const bool between = linear && !part->table_nearest;
-        const int first = between ? (int)low : (int)(low + 0.5f);
-        const int last = between ? (int)ceil(high) : (int)(high + 0.5f);
-        __global const uint *counts = visible + part->visible;
-        if (counts[last + 1] > counts[first])
-            distance = 0;
-    }
-    cells[part->cells + i] = distance;
+    if (range.x > range.y)
+        return CELL_DISTANCE_MAX;
+    const float a = range.x * part->table_scale + part->table_bias;
+    const float b = range.y * part->table_scale + part->table_bias;
+    // Interpolation rounds; one value everywhere does not.
+    const float slack = range.x < range.y ? 1e-3f : 0.0f;
+    const float low = clamp(fmin(a, b) - slack, 0.0f, part->table_last);
+    const float high = clamp(fmax(a, b) + slack, 0.0f, part->table_last);
+    const bool between = linear && !part->table_nearest;
+    const int first = between ? (int)low : (int)(low + 0.5f);
+    const int last = between ? (int)ceil(high) : (int)(high + 0.5f);
+    return counts[last + 1] > counts[first] ? 0 : CELL_DISTANCE_MAX;
 }
 
-// Spreads distances along one axis (0, 1, 2), from `in` to `out`.
-__kernel void spread(__constant struct world *world, __global const uchar *in, __global uchar *out,
-                     const uint part_index, const uint count, const uint axis) {
-    const uint i = get_global_id(0);
-    if (i >= count)
-        return;
-    __constant struct part *part = &world->parts[part_index];
-    const struct cell_dims dims = cell_dims(part, count);
-    const int x = (int)i % dims.x, y = (int)i / dims.x % dims.y, z = (int)i / part->cell_slice;
+// The distance of cell i, spread along one axis (0, 1, 2).
+static uchar spread(__constant struct part *part, __global const uchar *cell, struct cell_dims dims,
+                    int i, uint axis) {
+    const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
     const int at = axis == 0 ? x : axis == 1 ? y : z;
     const int size = axis == 0 ? dims.x : axis == 1 ? dims.y : dims.z;
     const int stride = axis == 0 ? 1 : axis == 1 ? part->cell_row : part->cell_slice;
-    __global const uchar *cell = in + part->cells + i;
     int best = *cell;
     for (int k = 1; k < best; k++) {
         if (at - k >= 0)
@@ -73,7 +56,25 @@ __kernel void spread(__constant struct world *world, __global const uchar *in, _
         if (at - k < 0 && at + k >= size)
             break;
     }
-    out[part->cells + i] = (uchar)best;
+    return (uchar)best;
+}
+
+// One pass over the `count` cells of a part, from `in` to `out`: OCCUPY, or spreading along the axis of that number.
+// `linear` tells that the kernel interpolates between table entries. One kernel for both, because each one more costs a
+// cold start an eighth of a second.
+__kernel void occupancy(__constant struct world *world, __global const float2 *ranges,
+                        __global const uint *visible, __global const uchar *in,
+                        __global uchar *out, const uint part_index, const uint count,
+                        const uint linear, const uint pass) {
+    const uint i = get_global_id(0);
+    if (i >= count)
+        return;
+    __constant struct part *part = &world->parts[part_index];
+    const uint cell = part->cells + i;
+    if (pass == PASS_OCCUPY)
+        out[cell] = occupied(part, ranges[part->ranges + i], visible + part->visible, linear);
+    else
+        out[cell] = spread(part, in + cell, cell_dims(part, count), (int)i, pass);
 }
 
 #endif

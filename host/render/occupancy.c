@@ -7,15 +7,9 @@
 
 #include <string.h>
 
-enum { GROUP = 16 };
+#include "shared/grid.h"
 
-static bool find_kernels(struct pel_occupancy *occupancy, const struct pel_kernel *render) {
-    if (!occupancy->occupy)
-        occupancy->occupy = pel_kernel_sibling(render, "occupy");
-    if (occupancy->occupy && !occupancy->spread)
-        occupancy->spread = pel_kernel_sibling(render, "spread");
-    return occupancy->occupy && occupancy->spread;
-}
+enum { GROUP = 16 };
 
 static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device, size_t cells) {
     if (occupancy->cells && occupancy->scratch && cells <= occupancy->cell_count)
@@ -56,35 +50,31 @@ static size_t part_cells(const struct pel_world *world, int p) {
     return end - world->bytes.parts[p].cells;
 }
 
-static bool launch(struct pel_kernel *kernel, size_t cells) {
-    return pel_kernel_launch(kernel, (cells + GROUP - 1) / GROUP * GROUP, GROUP);
-}
-
-static bool spread(struct pel_occupancy *occupancy, const struct pel_buffer *world_buffer,
-                   const struct pel_buffer *in, const struct pel_buffer *out, int p, size_t cells,
-                   uint32_t axis) {
-    struct pel_kernel *kernel = occupancy->spread;
-    return pel_kernel_set_buffer(kernel, 0, world_buffer) && pel_kernel_set_buffer(kernel, 1, in) &&
-           pel_kernel_set_buffer(kernel, 2, out) && pel_kernel_set_u32(kernel, 3, (uint32_t)p) &&
-           pel_kernel_set_u32(kernel, 4, (uint32_t)cells) && pel_kernel_set_u32(kernel, 5, axis) &&
-           launch(kernel, cells);
+// One pass over the cells of part p, from `in` to `out`.
+static bool run_pass(struct pel_occupancy *occupancy, const struct pel_buffer *in,
+                     const struct pel_buffer *out, size_t cells, uint32_t pass) {
+    struct pel_kernel *kernel = occupancy->kernel;
+    return pel_kernel_set_buffer(kernel, 3, in) && pel_kernel_set_buffer(kernel, 4, out) &&
+           pel_kernel_set_u32(kernel, 8, pass) &&
+           pel_kernel_launch(kernel, (cells + GROUP - 1) / GROUP * GROUP, GROUP);
 }
 
 static bool derive_part(struct pel_occupancy *occupancy, const struct pel_world *world,
                         const struct pel_buffer *world_buffer,
                         const struct pel_residency *residency, int p) {
-    struct pel_kernel *occupy = occupancy->occupy;
-    size_t cells = part_cells(world, p);
-    return pel_kernel_set_buffer(occupy, 0, world_buffer) &&
-           pel_kernel_set_buffer(occupy, 1, residency->ranges) &&
-           pel_kernel_set_buffer(occupy, 2, occupancy->visible.buffer) &&
-           pel_kernel_set_buffer(occupy, 3, occupancy->scratch) &&
-           pel_kernel_set_u32(occupy, 4, (uint32_t)p) &&
-           pel_kernel_set_u32(occupy, 5, (uint32_t)cells) &&
-           pel_kernel_set_u32(occupy, 6, world->table_linear) && launch(occupy, cells) &&
-           spread(occupancy, world_buffer, occupancy->scratch, occupancy->cells, p, cells, 0) &&
-           spread(occupancy, world_buffer, occupancy->cells, occupancy->scratch, p, cells, 1) &&
-           spread(occupancy, world_buffer, occupancy->scratch, occupancy->cells, p, cells, 2);
+    struct pel_kernel *kernel = occupancy->kernel;
+    const struct pel_buffer *cells = occupancy->cells, *scratch = occupancy->scratch;
+    size_t count = part_cells(world, p);
+    return pel_kernel_set_buffer(kernel, 0, world_buffer) &&
+           pel_kernel_set_buffer(kernel, 1, residency->ranges) &&
+           pel_kernel_set_buffer(kernel, 2, occupancy->visible.buffer) &&
+           pel_kernel_set_u32(kernel, 5, (uint32_t)p) &&
+           pel_kernel_set_u32(kernel, 6, (uint32_t)count) &&
+           pel_kernel_set_u32(kernel, 7, world->table_linear) &&
+           run_pass(occupancy, cells, scratch, count, PASS_OCCUPY) &&
+           run_pass(occupancy, scratch, cells, count, 0) &&
+           run_pass(occupancy, cells, scratch, count, 1) &&
+           run_pass(occupancy, scratch, cells, count, 2);
 }
 
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
@@ -94,7 +84,9 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
     if (!skip || world->bytes.part_count == 0)
         return make_room(occupancy, device, 1);
     bool changed = false;
-    if (!find_kernels(occupancy, render) || !make_room(occupancy, device, world->cell_count) ||
+    if (!occupancy->kernel)
+        occupancy->kernel = pel_kernel_sibling(render, "occupancy");
+    if (!occupancy->kernel || !make_room(occupancy, device, world->cell_count) ||
         !pel_mirror_update(&occupancy->visible, device, world->visible,
                            world->visible_words * sizeof *world->visible, 0, "visible entries",
                            &changed))
@@ -114,8 +106,7 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
 }
 
 void pel_occupancy_finish(struct pel_occupancy *occupancy) {
-    pel_kernel_destroy(occupancy->occupy);
-    pel_kernel_destroy(occupancy->spread);
+    pel_kernel_destroy(occupancy->kernel);
     pel_mirror_finish(&occupancy->visible);
     pel_buffer_destroy(occupancy->cells);
     pel_buffer_destroy(occupancy->scratch);

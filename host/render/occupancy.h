@@ -16,7 +16,7 @@ struct pel_occupancy_key {
 
 // Zero-initialise.
 struct pel_occupancy {
-    struct pel_kernel *occupy, *spread;
+    struct pel_kernel *kernel;
     struct pel_mirror visible; // counts of visible entries
     struct pel_buffer *cells,
         *scratch;                 // a distance for each cell of each part, and room to work in
@@ -25,7 +25,7 @@ struct pel_occupancy {
 };
 
 // Derives the distances for a world whose bytes are in `world_buffer`, unless they are there from
-// the last time. The kernels for it come from the program of `render`, one that skips. With `skip`
+// the last time. The kernel for it comes from the program of `render`, one that skips. With `skip`
 // false only a buffer that kernels can be given is made. False: DEVICE, MEMORY, BUILD.
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,

@@ -11,4 +11,7 @@
 // No distance is larger than this, in cells.
 #define CELL_DISTANCE_MAX 63
 
+// Which pass over the cells finds the empty ones; 0, 1 and 2 spread distances along x, y and z.
+#define PASS_OCCUPY 3
+
 #endif
