@@ -224,6 +224,36 @@ static bool add_copies(struct bench *bench, const struct task *task, int t, cons
     return true;
 }
 
+// One volume and eight, with empty space skipped, compared with the same without.
+static bool add_skips(struct bench *bench, const struct task *task, int t, const int size[2],
+                      int first) {
+    static const struct {
+        const char *name;
+        enum pel_skip skip;
+    } ways[] = {{"grid", PEL_SKIP_GRID}, {"distance", PEL_SKIP_DISTANCE}};
+    for (int volumes = 1; volumes <= COPIES; volumes *= COPIES) {
+        for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+            char name[32];
+            snprintf(name, sizeof name, "%s, %s", transfer_names[t], ways[i].name);
+            struct bench_case *added = bench_add(bench, "task", name);
+            struct pel_scene *scene = added ? task_scene(bench, task, t, volumes) : NULL;
+            if (!scene)
+                return false;
+            scene->render.skip = ways[i].skip;
+            added->scene = scene;
+            snprintf(added->transfer, sizeof added->transfer, "%s", transfer_names[t]);
+            added->volumes = volumes;
+            added->with_peers = true;
+            added->width = size[0];
+            added->height = size[1];
+            for (int c = first; added->baseline < 0; c++)
+                if (bench->cases[c].volumes == volumes)
+                    added->baseline = c;
+        }
+    }
+    return true;
+}
+
 // One volume with every number of lanes and both readers. The run's own choice comes once more, so
 // that what is compared follows closely in a turn.
 static bool add_variants(struct bench *bench, const struct bench_case *like) {
@@ -267,9 +297,13 @@ int bench_add_task(struct bench *bench) {
     int first = bench->case_count;
     int status = get_task(bench, &task);
     bool good = !status;
-    for (int s = 0; good && s < (given[0] ? 1 : 2); s++)
-        for (int t = 0; good && t < TRANSFERS; t++)
-            good = add_copies(bench, &task, t, given[0] ? given : usual[s]);
+    for (int s = 0; good && s < (given[0] ? 1 : 2); s++) {
+        const int *size = given[0] ? given : usual[s];
+        for (int t = 0; good && t < TRANSFERS; t++) {
+            int copies = bench->case_count;
+            good = add_copies(bench, &task, t, size) && add_skips(bench, &task, t, size, copies);
+        }
+    }
     good = good && add_variants(bench, &bench->cases[first]);
     for (int t = 0; t < TRANSFERS; t++)
         pel_transfer_destroy(task.transfers[t]);

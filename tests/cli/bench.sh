@@ -78,12 +78,13 @@ for tf in T1 T2 T3; do
         grep -qx "$tf 16 12 $volumes" asked || complain "the peer was not asked for $tf, $volumes"
     done
 done
-check_lines task.json '[(c["tf"], c["volumes"]) for c in x[:12]] == [(t, v) for t in ("T1", "T2", "T3") for v in (1, 2, 4, 8)]'
+check_lines task.json '[(c["tf"], c["volumes"]) for c in x if c["name"] == c["tf"]] == [(t, v) for t in ("T1", "T2", "T3") for v in (1, 2, 4, 8)]'
+check_lines task.json '[(c["name"], c["volumes"], x[c["baseline"] - 1]["volumes"]) for c in x if c["name"].startswith("T2, ")] == [("T2, " + way, v, v) for v in (1, 8) for way in ("grid", "distance")]'
 check_lines task.json 'all(c["data"] == "generated" and c["shaded"] is False for c in x)'
 check_lines task.json 'all(abs(c["peers"]["fake"]["ratio"] * 0.5 / c["median_ms"] - 1) < 0.01 for c in x[:3])'
 check_lines task.json 'x[3]["peers"]["fake"]["ratio"] is None and x[3]["peers"]["fake"]["problem"] == "exit status 3"'
 check_lines task.json '[c["lanes"] for c in x if c["name"].endswith(("lane", "lanes"))] == [1, 4, 8, 16]'
-check_lines task.json 'len(x) == 19 and "baseline" not in x[12] and all(c["baseline"] == 13 for c in x[13:])'
+check_lines task.json 'len(x) == 31 and "baseline" not in x[24] and all(c["baseline"] == 25 for c in x[25:])'
 expect 2 '^pellucid: --peer mute: never gave a time: its last line' bench task --size 16x12 --frames 1 --peer 'mute=echo hello'
 
 # Nothing is left behind.

@@ -179,7 +179,8 @@ static void test_split_volumes(void **state) {
         if (!four)
             add_waves(scene, small_or(12, 24), PEL_VOXEL_F32, 4, 0.1)->transform = turned(5, 2);
         // With its border the last volume, the largest, takes more than this.
-        uint64_t limit_bytes = pel_volume_bytes(scene->volumes[four ? 3 : 0]) * 5 / 4;
+        uint64_t limit_bytes =
+            pel_volume_bytes(scene->volumes[four ? 3 : 0]) * (uint64_t)small_or(6, 5) / 4;
         struct pel_image *pictures[2];
         render_limited(scene, limit_bytes, pictures);
         assert_pictures_within(pictures[1], pictures[0], 0.1, 2, "in pieces");
