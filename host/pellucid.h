@@ -583,6 +583,7 @@ typedef bool (*pel_progress_callback)(double finished, void *user);
 struct pel_render_options {
     pel_progress_callback progress;
     void *user;
+    double batch_ms; // what a batch should take: how soon a frame can be abandoned; 0 = 150
 };
 
 // Opens a device. Fails (DEVICE, ARGUMENT) with a sentence that lists what was found.

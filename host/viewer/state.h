@@ -1,0 +1,62 @@
+// state.h - everything the viewer knows, shared by the files that react to events, lay the window
+// out and draw it.
+#ifndef PEL_VIEWER_STATE_H
+#define PEL_VIEWER_STATE_H
+
+#include "viewer/present.h"
+#include "viewer/viewer.h"
+#include "viewer/window.h"
+#include "viewer/worker.h"
+
+enum { PEL_STATE_SENTENCE = 512 };
+
+// One window on the screen.
+struct pel_pane_window {
+    struct pel_window *window;
+    struct pel_present *present;
+    int pixels[2];
+    double scale; // how much larger than usual letters are
+};
+
+// One picture in a window.
+struct pel_view {
+    int window;
+    struct pel_rectangle place;
+};
+
+struct pel_state {
+    const struct pel_viewer_options *options;
+    struct pel_scene *scene;
+
+    struct pel_event_queue queue;
+    struct pel_pane_window windows[PEL_WORKER_VIEWS];
+    int window_count;
+    struct pel_worker *worker;
+
+    // What is shown, and whether it is what should be.
+    struct pel_view views[PEL_WORKER_VIEWS];
+    int view_count;
+    uint64_t version, sent; // counts the changes; the last one that was given to the worker
+    bool sent_moving;       // as one of many
+    double changed_ms;      // when the last change was
+    bool quick;             // only a quick picture of `sent` was asked for
+    struct pel_worker_picture shown; // what is on the screen, without its pixels
+    struct pel_worker_status status;
+    int shown_count; // pictures so far
+    bool redraw;     // the windows must be drawn again
+
+    char message[PEL_STATE_SENTENCE]; // to the user
+    double message_ms;                // when it was said
+    bool quit;
+    double now_ms;
+};
+
+// The scene was changed: it is to be rendered anew.
+void pel_state_change(struct pel_state *state);
+
+// Says something to the user, in the window.
+void pel_state_say(struct pel_state *state, const char *format, ...) PEL_PRINTF(2, 3);
+
+double pel_state_clock_ms(void);
+
+#endif
