@@ -30,12 +30,13 @@ void pel_screen_close(struct pel_state *state) {
 }
 
 bool pel_screen_layout(struct pel_state *state) {
-    struct pel_view views[PEL_WORKER_VIEWS];
+    struct pel_screen_view views[PEL_WORKER_VIEWS];
     memcpy(views, state->views, sizeof views);
     struct pel_pane_window *window = &state->windows[0];
     pel_window_pixels(window->window, window->pixels, &window->scale);
     state->view_count = 1;
-    state->views[0] = (struct pel_view){.place = {0, 0, window->pixels[0], window->pixels[1]}};
+    state->views[0] =
+        (struct pel_screen_view){.place = {0, 0, window->pixels[0], window->pixels[1]}};
     // A window that is minimised has no pixels.
     if (state->views[0].place.width < 1 || state->views[0].place.height < 1)
         memcpy(state->views, views, sizeof views);

@@ -19,7 +19,7 @@ struct pel_pane_window {
 };
 
 // One picture in a window.
-struct pel_view {
+struct pel_screen_view {
     int window;
     struct pel_rectangle place;
 };
@@ -34,7 +34,7 @@ struct pel_state {
     struct pel_worker *worker;
 
     // What is shown, and whether it is what should be.
-    struct pel_view views[PEL_WORKER_VIEWS];
+    struct pel_screen_view views[PEL_WORKER_VIEWS];
     int view_count;
     uint64_t version, sent; // counts the changes; the last one that was given to the worker
     bool sent_moving;       // as one of many
