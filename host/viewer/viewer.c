@@ -9,11 +9,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "viewer/command.h"
+#include "viewer/hand.h"
 #include "viewer/screen.h"
 #include "viewer/state.h"
 
 // What has not changed for this long is at rest.
 static const double rest_ms = 150;
+
+// That can be undone.
+enum { STEPS = 200 };
 
 static enum pel_error fail(char *sentence, size_t bytes, enum pel_error code, const char *what) {
     if (what)
@@ -80,19 +85,27 @@ static void react(struct pel_state *state, const struct pel_event *event) {
         break;
     case PEL_EVENT_SIZE:
         if (pel_screen_layout(state))
-            pel_state_change(state);
+            pel_state_renew(state);
         state->redraw = true;
         break;
+    case PEL_EVENT_DROP:
+        if (event->path)
+            pel_command_open(state, event->path);
+        break;
     default:
+        pel_hand_react(state, event);
         break;
     }
 }
 
+// Panels see one button or key a picture, or they would miss those that are quickly up again.
 static void react_to_all(struct pel_state *state) {
     struct pel_event event;
-    while (pel_event_take(&state->queue, &event)) {
+    bool more = true;
+    while (more && pel_event_take(&state->queue, &event)) {
         react(state, &event);
         free(event.path);
+        more = event.kind != PEL_EVENT_BUTTON && event.kind != PEL_EVENT_KEY;
     }
 }
 
@@ -105,8 +118,10 @@ static bool is_resting(const struct pel_state *state) {
 }
 
 static double wait_seconds(const struct pel_state *state) {
-    if (state->redraw)
+    if (state->redraw || state->queue.count > 0)
         return 0;
+    if (pel_hand_is_busy(state))
+        return 0.005;
     if (state->version != state->sent || state->sent_moving)
         return 0.02;
     return state->status.busy ? 0.1 : 0.5;
@@ -124,7 +139,9 @@ static bool is_over(const struct pel_state *state) {
 static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes) {
     while (!is_over(state)) {
         pel_window_wait(wait_seconds(state));
-        state->now_ms = pel_state_clock_ms();
+        double now_ms = pel_state_clock_ms();
+        pel_hand_tick(state, (now_ms - state->now_ms) / 1e3);
+        state->now_ms = now_ms;
         react_to_all(state);
         ask_for_picture(state);
         take_picture(state);
@@ -148,13 +165,19 @@ static enum pel_error start(struct pel_state *state, char *sentence, size_t byte
         return PEL_ERROR_DEVICE;
     }
     state->scene = pel_scene_copy(state->options->scene);
-    if (!state->scene)
-        return fail(sentence, bytes, PEL_ERROR_MEMORY, pel_error_message());
+    state->history = state->scene ? pel_history_create(state->scene, STEPS) : NULL;
+    if (!state->history)
+        return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot allocate the scene");
+    pel_navigation_start(&state->navigation, &state->scene->camera);
+    if (state->options->scene_path)
+        snprintf(state->scene_path, sizeof state->scene_path, "%s", state->options->scene_path);
+    state->panels = state->readouts = !state->options->bare;
+    state->now_ms = pel_state_clock_ms();
     state->worker = pel_worker_create(&state->options->renderer, pel_window_wake);
     if (!state->worker)
         return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot start the rendering thread");
     pel_screen_layout(state);
-    pel_state_change(state);
+    pel_state_renew(state);
     return PEL_OK;
 }
 
@@ -171,6 +194,7 @@ enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *se
     pel_screen_close(state);
     pel_window_stop();
     pel_event_finish(&state->queue);
+    pel_history_destroy(state->history);
     pel_scene_destroy(state->scene);
     free(state);
     return code;
