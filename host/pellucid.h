@@ -398,6 +398,8 @@ struct pel_instance {
     enum pel_filter filter;      //
     struct pel_transfer *transfer; // owned, resolved
     struct pel_material material;  //
+    double step;                   // of its samples, in its own finest voxels; 0 = the scene's
+    double step_mm;                // the same in millimetres, instead of `step`; 0 = as `step` says
 };
 
 #define PEL_LIGHT_MAX 8
@@ -456,6 +458,7 @@ struct pel_render_settings {
     int width, height;      // pixels
     enum pel_mixing mixing; //
     double step;            // in voxels of the finest visible volume; > 0
+    double step_mm;         // the same in millimetres, instead of `step`; 0 = as `step` says
     double phase;           // of the first sample, in steps; 0..1
     double termination;     // a ray ends once its opacity exceeds this; 1 = never
     enum pel_sample_origin origin;
