@@ -429,6 +429,7 @@ enum pel_skip {
     PEL_SKIP_NONE,     // every sample is taken
     PEL_SKIP_GRID,     // empty cells of 4^3 voxels are left one by one
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
+    PEL_SKIP_OCTREE,   // empty nodes of an octree over the same cells are left one by one
 };
 
 // Where the n x n rays of a pixel go through it. See docs/picture.md for the sources.
