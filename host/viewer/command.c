@@ -105,23 +105,6 @@ static void step_back(struct pel_state *state, bool back) {
     pel_state_say(state, "%s", scene ? what : pel_error_message());
 }
 
-static void save_scene(struct pel_state *state) {
-    if (!state->scene_path[0])
-        snprintf(state->scene_path, sizeof state->scene_path, "scene.json");
-    struct pel_scene *scene = pel_scene_copy(state->scene);
-    bool good = scene != NULL;
-    if (good) {
-        // The picture of the file is that of the window.
-        pel_screen_fit_scene(state, 0, scene);
-        good = pel_scene_save(scene, state->scene_path);
-    }
-    if (good)
-        pel_history_mark_saved(state->history);
-    pel_state_say(state, "%s%s", good ? "saved " : "",
-                  good ? state->scene_path : pel_error_message());
-    pel_scene_destroy(scene);
-}
-
 static void save_picture(struct pel_state *state) {
     char path[64];
     FILE *taken = NULL;
@@ -141,9 +124,6 @@ static bool use_window(struct pel_state *state, enum pel_action action) {
     case PEL_ACTION_UNDO:
     case PEL_ACTION_REDO:
         step_back(state, action == PEL_ACTION_UNDO);
-        return true;
-    case PEL_ACTION_SAVE_SCENE:
-        save_scene(state);
         return true;
     case PEL_ACTION_SAVE_PICTURE:
         save_picture(state);
