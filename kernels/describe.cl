@@ -86,6 +86,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, seed);
     *out++ = OFFSET(struct world, contrast);
     *out++ = OFFSET(struct world, lamp_count);
+    *out++ = OFFSET(struct world, debug);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
     describe_recipe(out);

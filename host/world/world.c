@@ -257,6 +257,8 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->reconstruction = (i32)supersampling->filter;
     bytes->seed = supersampling->seed;
     bytes->contrast = (float)supersampling->adaptive;
+    bytes->debug =
+        (i32)settings->debug; // the numbers of shared/variant.h are in the order of the enum
 }
 
 static bool fill_instances(struct pel_world *world, const struct pel_scene *scene,
@@ -297,7 +299,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
         !pel_lighting_fill_lamps(&world->bytes, scene, centre))
         return false;
 
-    world->supersampling = is_supersampled(&scene->render.supersampling);
+    world->supersampling = !scene->render.debug && is_supersampled(&scene->render.supersampling);
     world->jitter = scene->render.jitter;
     world->mixing = scene->render.mixing == PEL_MIX_SUM ? MIXING_SUM : MIXING_OVER;
     struct pel_table tables[PEL_VOLUME_MAX] = {{0}};

@@ -83,7 +83,8 @@ struct world {
     u32 seed;           // of all random choices
     float contrast;     // between neighbours, beyond which a pixel takes all its rays; 0: all do
     i32 lamp_count;
-    i32 pad[2];
+    i32 debug; // one of DEBUG_*
+    i32 pad[1];
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
 };

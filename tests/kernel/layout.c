@@ -72,6 +72,7 @@ static const struct {
     AT(world, seed),
     AT(world, contrast),
     AT(world, lamp_count),
+    AT(world, debug),
     AT(world, lamps),
     AT(world, parts),
     SIZE(instruction),
