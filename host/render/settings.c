@@ -1,9 +1,8 @@
 // settings.c - whether a scene's settings make sense.
 #include "render/settings.h"
 
-#include <math.h>
-
 #include "base/error.h"
+#include "world/step.h"
 
 enum { PICTURE_MAX = 32768 };
 
@@ -27,8 +26,8 @@ bool pel_settings_check(const struct pel_scene *scene) {
         settings->height > PICTURE_MAX)
         return pel_fail(PEL_ERROR_ARGUMENT, "picture of %d x %d pixels, outside 1..%d",
                         settings->width, settings->height, PICTURE_MAX);
-    if (!(settings->step > 0) || !isfinite(settings->step))
-        return pel_fail(PEL_ERROR_ARGUMENT, "step of %g voxels, must be above 0", settings->step);
+    if (!pel_step_check(scene))
+        return false;
     if (!(settings->phase >= 0 && settings->phase <= 1))
         return pel_fail(PEL_ERROR_ARGUMENT, "phase %g, outside 0..1", settings->phase);
     if (!(settings->termination >= 0 && settings->termination <= 1))
