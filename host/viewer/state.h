@@ -60,9 +60,11 @@ struct pel_state {
     bool quick;             // only a quick picture of `sent` was asked for
     struct pel_worker_picture shown; // what is on the screen, without its pixels
     struct pel_worker_status status;
-    bool panels, readouts, help;
-    int shown_count; // pictures so far
-    bool redraw;     // the windows must be drawn again
+    bool with_panels;            // there is something that can draw them
+    bool panels, readouts, help; // whether they are shown
+    double drawn_ms;             // when the windows were drawn last
+    int shown_count;             // pictures so far
+    bool redraw;                 // the windows must be drawn again
 
     char message[PEL_STATE_SENTENCE]; // to the user
     double message_ms;                // when it was said

@@ -11,6 +11,7 @@
 
 #include "viewer/command.h"
 #include "viewer/hand.h"
+#include "viewer/panels.h"
 #include "viewer/screen.h"
 #include "viewer/state.h"
 
@@ -78,7 +79,18 @@ static void take_picture(struct pel_state *state) {
 
 // ---- Events ------------------------------------------------------------------------------------
 
+// The panels let go of what began in the picture, and the other way round.
+static bool is_for_panels(struct pel_state *state, const struct pel_event *event) {
+    if (!state->with_panels || event->window != 0)
+        return false;
+    state->redraw = true;
+    return pel_panels_take_event(event) && state->drag == PEL_DRAG_NONE &&
+           !(event->kind == PEL_EVENT_KEY && !event->down);
+}
+
 static void react(struct pel_state *state, const struct pel_event *event) {
+    if (is_for_panels(state, event))
+        return;
     switch (event->kind) {
     case PEL_EVENT_CLOSE:
         state->quit = true;
@@ -158,6 +170,7 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
 }
 
 static enum pel_error start(struct pel_state *state, char *sentence, size_t bytes) {
+    state->panels = state->readouts = !state->options->bare;
     char reason[256];
     if (!pel_window_start(reason, sizeof reason) ||
         !pel_screen_open(state, reason, sizeof reason)) {
@@ -171,7 +184,6 @@ static enum pel_error start(struct pel_state *state, char *sentence, size_t byte
     pel_navigation_start(&state->navigation, &state->scene->camera);
     if (state->options->scene_path)
         snprintf(state->scene_path, sizeof state->scene_path, "%s", state->options->scene_path);
-    state->panels = state->readouts = !state->options->bare;
     state->now_ms = pel_state_clock_ms();
     state->worker = pel_worker_create(&state->options->renderer, pel_window_wake);
     if (!state->worker)

@@ -63,6 +63,8 @@ bool pel_widget_start(double scale) {
     ImFontConfig font;
     font.SizePixels = static_cast<float>(13 * scale);
     io.Fonts->AddFontDefault(&font);
+    // Until the pointer is seen it is nowhere.
+    io.MousePos = ImVec2(-1e6f, -1e6f);
     style(static_cast<float>(scale));
     map_keys(io);
     return ImGui_ImplOpenGL3_Init("#version 330 core");
