@@ -8,6 +8,9 @@
 // Does one action; `number` counts from 0 where an action has several keys.
 void pel_command_do(struct pel_state *state, enum pel_action action, int number);
 
+// The actions that change how things are rendered; false for the others.
+bool pel_command_look(struct pel_state *state, enum pel_action action);
+
 // Adds a volume, or takes a scene in place of the present one; failure is a message in the window.
 void pel_command_open(struct pel_state *state, const char *path);
 

@@ -43,6 +43,9 @@ void pel_panel_file(struct pel_state *state) {
     pel_widget_same_line();
     if (pel_widget_button("save the picture"))
         pel_command_do(state, PEL_ACTION_SAVE_PICTURE, 0);
+    pel_widget_slide_int("picture width", &state->save_size[0], 0, 8192);
+    pel_widget_slide_int("picture height", &state->save_size[1], 0, 8192);
+    pel_widget_hint("0: as the window's");
     draw_step(state, "undo", pel_history_undo_name(state->history), PEL_ACTION_UNDO);
     draw_step(state, "redo", pel_history_redo_name(state->history), PEL_ACTION_REDO);
 }

@@ -36,6 +36,7 @@ struct pel_state {
     struct pel_navigation navigation; // its camera is the scene's
     char scene_path[4096];            // where the scene is saved; "" = not yet
     int selected;                     // instance
+    int preset;                       // the last one that a key chose
 
     // The hand.
     uint32_t held;        // bits of the actions whose keys are down
@@ -60,6 +61,8 @@ struct pel_state {
     bool quick;             // only a quick picture of `sent` was asked for
     struct pel_worker_picture shown; // what is on the screen, without its pixels
     struct pel_worker_status status;
+    int saved_count; // pictures that the worker saved, and of which the user was told
+    int save_size[2]; // of the next one; 0 = as the window's
     bool with_panels;            // there is something that can draw them
     bool panels, readouts, help; // whether they are shown
     double drawn_ms;             // when the windows were drawn last

@@ -77,6 +77,13 @@ static void take_picture(struct pel_state *state) {
     pel_worker_picture_destroy(picture);
 }
 
+static void ask_worker(struct pel_state *state) {
+    pel_worker_ask(state->worker, &state->status);
+    if (state->saved_count != state->status.saved_count)
+        pel_state_say(state, "%s", state->status.saved);
+    state->saved_count = state->status.saved_count;
+}
+
 // ---- Events ------------------------------------------------------------------------------------
 
 // The panels let go of what began in the picture, and the other way round.
@@ -158,7 +165,7 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
         ask_for_picture(state);
         take_picture(state);
         bool was_busy = state->status.busy;
-        pel_worker_ask(state->worker, &state->status);
+        ask_worker(state);
         if (state->redraw || was_busy || state->status.busy)
             pel_screen_draw(state);
         state->redraw = false;
