@@ -13,6 +13,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .voxels = world->voxels ? world->voxels : VOXELS_U8,
         .filters = world->filters ? world->filters : FILTERS_LINEAR,
         .mixing = world->mixing,
+        .models = world->models,
         .skip = skip == PEL_SKIP_NONE   ? SKIP_NONE
                 : skip == PEL_SKIP_GRID ? SKIP_GRID
                                         : SKIP_DISTANCE,
@@ -32,9 +33,9 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
     snprintf(text, PEL_VARIANT_BYTES,
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
-             "-DSUPERSAMPLING=%d -DJITTER=%d",
+             "-DSUPERSAMPLING=%d -DJITTER=%d -DMODELS=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
-             variant->jitter);
+             variant->jitter, variant->models);
 }
