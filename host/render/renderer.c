@@ -244,7 +244,6 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     double mark = now_ms();
     struct pel_device *device = renderer->device;
     int lanes = statistics->lanes;
-    bool skip = statistics->skip != PEL_SKIP_NONE;
     struct pel_variant variant =
         pel_variant_choose(world, layout->reader, statistics->skip, lanes,
                            pel_device_describe(device)->max_constant_bytes);
@@ -271,7 +270,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, kernel, skip) ||
+                              &renderer->residency, kernel, statistics->skip) ||
         !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);

@@ -21,7 +21,7 @@ static const char *const output_keys[] = {"comment", "file", "depth", "alpha", N
 // In the order of their enums.
 static const char *const mixing_names[] = {"sum", "over", NULL};
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
-static const char *const skip_names[] = {"auto", "none", "grid", "distance", NULL};
+static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", NULL};
 static const char *const pattern_names[] = {"regular",        "jittered",   "n-rooks",
                                             "multi-jittered", "hammersley", NULL};
 static const char *const reconstruction_names[] = {"box", "gaussian", NULL};

@@ -153,7 +153,8 @@ static bool count_visible(struct pel_world *world, const u32 *start, size_t entr
     for (size_t i = 0; i < entries; i++) {
         float strength;
         memcpy(&strength, &start[PEL_STRENGTH_WORDS * i], sizeof strength);
-        counts[i + 1] = counts[i] + (strength > 0);
+        bool glows = world->models & MODELS_THESIS && start[PEL_STRENGTH_WORDS * i + 1] != 0;
+        counts[i + 1] = counts[i] + (strength > 0 || glows);
     }
     world->visible_words = words;
     return true;
