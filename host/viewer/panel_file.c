@@ -29,11 +29,8 @@ static void draw_step(struct pel_state *state, const char *label, const char *na
                       enum pel_action action) {
     char text[160];
     snprintf(text, sizeof text, "%s%s%s", label, name ? ": " : "", name ? name : "");
-    pel_widget_disable(!name);
-    if (pel_widget_button(text))
+    if (pel_widget_button_if(name != NULL, text))
         pel_command_do(state, action, 0);
-    if (!name)
-        pel_widget_disable(false);
 }
 
 void pel_panel_file(struct pel_state *state) {

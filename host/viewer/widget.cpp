@@ -172,13 +172,6 @@ void pel_widget_gap(void) {
     ImGui::Spacing();
 }
 
-void pel_widget_disable(bool disabled) {
-    if (disabled)
-        ImGui::BeginDisabled();
-    else
-        ImGui::EndDisabled();
-}
-
 // ---- Widgets -----------------------------------------------------------------------------------
 
 void pel_widget_text(const char *text) {
@@ -206,6 +199,13 @@ void pel_widget_hint(const char *text) {
 
 bool pel_widget_button(const char *label) {
     return ImGui::Button(label);
+}
+
+bool pel_widget_button_if(bool enabled, const char *label) {
+    ImGui::BeginDisabled(!enabled);
+    bool pressed = ImGui::Button(label);
+    ImGui::EndDisabled();
+    return pressed;
 }
 
 bool pel_widget_check(const char *label, bool *value) {
