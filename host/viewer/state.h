@@ -61,8 +61,8 @@ struct pel_state {
     bool quick;             // only a quick picture of `sent` was asked for
     struct pel_worker_picture shown; // what is on the screen, without its pixels
     struct pel_worker_status status;
-    int saved_count; // pictures that the worker saved, and of which the user was told
-    int save_size[2]; // of the next one; 0 = as the window's
+    int saved_count;             // pictures that the worker saved, and of which the user was told
+    int save_size[2];            // of the next one; 0 = as the window's
     bool with_panels;            // there is something that can draw them
     bool panels, readouts, help; // whether they are shown
     double drawn_ms;             // when the windows were drawn last
@@ -71,6 +71,7 @@ struct pel_state {
 
     char message[PEL_STATE_SENTENCE]; // to the user
     double message_ms;                // when it was said
+    struct pel_latency *latency;      // NULL unless it is measured
     bool quit;
     double now_ms;
 };

@@ -11,6 +11,7 @@
 
 #include "viewer/command.h"
 #include "viewer/hand.h"
+#include "viewer/latency.h"
 #include "viewer/panels.h"
 #include "viewer/screen.h"
 #include "viewer/state.h"
@@ -139,7 +140,7 @@ static bool is_resting(const struct pel_state *state) {
 static double wait_seconds(const struct pel_state *state) {
     if (state->redraw || state->queue.count > 0)
         return 0;
-    if (pel_hand_is_busy(state))
+    if (pel_hand_is_busy(state) || state->latency)
         return 0.005;
     if (state->version != state->sent || state->sent_moving)
         return 0.02;
@@ -150,6 +151,8 @@ static bool is_over(const struct pel_state *state) {
     const struct pel_viewer_options *options = state->options;
     if (state->quit)
         return true;
+    if (state->latency)
+        return pel_latency_is_over(state->latency);
     if (options->frames > 0 && state->shown_count >= options->frames)
         return true;
     return options->screenshot && options->frames == 0 && is_resting(state);
@@ -161,6 +164,8 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
         double now_ms = pel_state_clock_ms();
         pel_hand_tick(state, (now_ms - state->now_ms) / 1e3);
         state->now_ms = now_ms;
+        if (state->latency)
+            pel_latency_begin_turn(state->latency, state);
         react_to_all(state);
         ask_for_picture(state);
         take_picture(state);
@@ -169,7 +174,11 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
         if (state->redraw || was_busy || state->status.busy)
             pel_screen_draw(state);
         state->redraw = false;
+        if (state->latency)
+            pel_latency_end_turn(state->latency, state);
     }
+    if (state->latency)
+        pel_latency_report(state->latency, state, state->options->latency);
     const char *path = state->options->screenshot;
     if (path && !pel_screen_save(state, path))
         return fail(sentence, bytes, pel_error_code(), pel_error_message());
@@ -195,6 +204,10 @@ static enum pel_error start(struct pel_state *state, char *sentence, size_t byte
     state->worker = pel_worker_create(&state->options->renderer, pel_window_wake);
     if (!state->worker)
         return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot start the rendering thread");
+    if (state->options->latency)
+        state->latency = pel_latency_create(state->options->latency->inputs);
+    if (state->options->latency && !state->latency)
+        return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot allocate the measurement");
     pel_screen_layout(state);
     pel_state_renew(state);
     return PEL_OK;
@@ -214,6 +227,7 @@ enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *se
     pel_window_stop();
     pel_event_finish(&state->queue);
     pel_history_destroy(state->history);
+    pel_latency_destroy(state->latency);
     pel_scene_destroy(state->scene);
     free(state);
     return code;

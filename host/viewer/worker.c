@@ -36,7 +36,7 @@ struct pel_worker {
     int save_count, saved_count;
     char saved[PEL_WORKER_SENTENCE];
     bool quit, busy;
-    double begin_ms;         // of the frame in flight
+    double begin_ms; // of the frame in flight
     atomic_bool ending;
     atomic_bool overtaken;   // a request is pending, or the end is
     _Atomic double finished; // share of the frame in flight
