@@ -259,6 +259,16 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->contrast = (float)supersampling->adaptive;
 }
 
+static bool fill_filter(struct part *part, const struct pel_instance *instance) {
+    static const i32 filters[] = {FILTERS_LINEAR, FILTERS_NEAREST, FILTERS_CUBIC_B_SPLINE,
+                                  FILTERS_CATMULL_ROM};
+    if ((unsigned)instance->filter > PEL_FILTER_CATMULL_ROM)
+        return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': filter %d", instance->name,
+                        (int)instance->filter);
+    part->filter = filters[instance->filter];
+    return true;
+}
+
 static bool fill_instances(struct pel_world *world, const struct pel_scene *scene,
                            const struct pel_layout *layout, const struct pel_table *tables,
                            const double centre[3]) {
@@ -267,7 +277,8 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (instance->hidden)
             continue;
         struct part pattern = {0};
-        pattern.filter = instance->filter == PEL_FILTER_NEAREST ? FILTERS_NEAREST : FILTERS_LINEAR;
+        if (!fill_filter(&pattern, instance))
+            return false;
         world->filters |= pattern.filter;
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;
