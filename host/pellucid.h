@@ -405,6 +405,8 @@ struct pel_instance {
     enum pel_filter filter;      //
     struct pel_transfer *transfer; // owned, resolved
     struct pel_material material;  //
+    double step;                   // of its samples, in its own finest voxels; 0 = the scene's
+    double step_mm;                // the same in millimetres, instead of `step`; 0 = as `step` says
 };
 
 #define PEL_LIGHT_MAX 8
@@ -429,6 +431,7 @@ enum pel_skip {
     PEL_SKIP_NONE,     // every sample is taken
     PEL_SKIP_GRID,     // empty cells of 4^3 voxels are left one by one
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
+    PEL_SKIP_OCTREE,   // empty nodes of an octree over the same cells are left one by one
 };
 
 // Where the n x n rays of a pixel go through it. See docs/picture.md for the sources.
@@ -462,6 +465,7 @@ struct pel_render_settings {
     int width, height;      // pixels
     enum pel_mixing mixing; //
     double step;            // in voxels of the finest visible volume; > 0
+    double step_mm;         // the same in millimetres, instead of `step`; 0 = as `step` says
     double phase;           // of the first sample, in steps; 0..1
     double termination;     // a ray ends once its opacity exceeds this; 1 = never
     enum pel_sample_origin origin;

@@ -67,6 +67,12 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, spacing_mm);
     *out++ = OFFSET(struct part, shading);
     *out++ = OFFSET(struct part, one_sided);
+    *out++ = OFFSET(struct part, surface_values);
+    *out++ = OFFSET(struct part, surfaces);
+    *out++ = OFFSET(struct part, surface_count);
+    *out++ = OFFSET(struct part, model);
+    *out++ = OFFSET(struct part, step_mm);
+    *out++ = OFFSET(struct part, density);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);

@@ -12,6 +12,7 @@ enum {
     KEY_CAMERA,
     KEY_MIX,
     KEY_STEP,
+    KEY_STEP_MM,
     KEY_FILTER,
     KEY_TERMINATION,
     KEY_PHASE,
@@ -82,10 +83,11 @@ static const struct argp_option argp_options[] = {
     {0, 0, NULL, 0, "Rendering:", 4},
     {"mix", KEY_MIX, "sum|over", 0, "How overlapping volumes share a sample", 0},
     {"step", KEY_STEP, "N", 0, "Distance of samples, in voxels of the finest volume", 0},
+    {"step-mm", KEY_STEP_MM, "MM", 0, "The same in millimetres", 0},
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
     {"termination", KEY_TERMINATION, "X", 0, "End a ray once its opacity exceeds this; 1 for never",
      0},
-    {"skip", KEY_SKIP, "auto|none|grid|distance", 0,
+    {"skip", KEY_SKIP, "auto|none|grid|distance|octree", 0,
      "How empty space is skipped; the picture is the same with each", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,
@@ -236,7 +238,12 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         overrides_add_text(&options->overrides, "render.mixing", argument);
         break;
     case KEY_STEP:
+        overrides_add(&options->overrides, "render.step_mm", "null");
         good = add_number(options, "--step", "render.step", argument);
+        break;
+    case KEY_STEP_MM:
+        overrides_add(&options->overrides, "render.step", "null");
+        good = add_number(options, "--step-mm", "render.step_mm", argument);
         break;
     case KEY_TERMINATION:
         good = add_number(options, "--termination", "render.termination", argument);

@@ -13,28 +13,23 @@
 #include "device/device.h"
 #include "render/bake.h"
 #include "render/frame.h"
+#include "render/kernel_cache.h"
 #include "render/mirror.h"
 #include "render/occupancy.h"
 #include "render/residency.h"
 #include "render/resolve.h"
+#include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
 
-enum { KERNEL_CACHE = 16, PICTURE_MAX = 32768 };
-
 // A batch of tiles should take about this long.
 static const double batch_ms = 150;
-
-struct cached_kernel {
-    char definitions[PEL_VARIANT_BYTES];
-    struct pel_kernel *kernel;
-};
 
 struct pel_renderer {
     struct pel_device *device;
     struct pel_renderer_options options;
     struct pel_residency residency;
-    struct cached_kernel kernels[KERNEL_CACHE]; // newest first
+    struct pel_kernel_cache kernels;
     struct pel_mirror world, tables;
     struct pel_occupancy occupancy;
     struct pel_resolve resolve;
@@ -70,31 +65,6 @@ static bool grow_buffer(struct pel_buffer **buffer, size_t *have, size_t bytes,
     return *buffer != NULL;
 }
 
-// The kernel of a variant, from the cache or built now. Borrowed.
-static struct pel_kernel *find_kernel(struct pel_renderer *renderer,
-                                      const struct pel_variant *variant) {
-    char definitions[PEL_VARIANT_BYTES];
-    pel_variant_write(variant, definitions);
-    struct cached_kernel found = {.kernel = NULL};
-    int place = 0;
-    for (; place < KERNEL_CACHE - 1 && renderer->kernels[place].kernel; place++)
-        if (strcmp(renderer->kernels[place].definitions, definitions) == 0)
-            break;
-    if (renderer->kernels[place].kernel &&
-        strcmp(renderer->kernels[place].definitions, definitions) == 0) {
-        found = renderer->kernels[place];
-    } else {
-        found.kernel = pel_kernel_build(renderer->device, "render.cl", "render", definitions);
-        if (!found.kernel)
-            return NULL;
-        memcpy(found.definitions, definitions, sizeof definitions);
-        pel_kernel_destroy(renderer->kernels[place].kernel);
-    }
-    memmove(&renderer->kernels[1], &renderer->kernels[0], (size_t)place * sizeof found);
-    renderer->kernels[0] = found;
-    return found.kernel;
-}
-
 // ---- One frame ---------------------------------------------------------------------------------
 
 // How a picture's tiles are handed out. A work-group may span several tiles, so launches are
@@ -114,35 +84,6 @@ static struct extent picture_extent(const struct pel_render_settings *settings, 
 
 static size_t round_up(size_t value, size_t multiple) {
     return (value + multiple - 1) / multiple * multiple;
-}
-
-static bool check_supersampling(const struct pel_supersampling *supersampling) {
-    if (supersampling->n < 0 || supersampling->n > PEL_SUPERSAMPLING_MAX)
-        return pel_fail(PEL_ERROR_ARGUMENT, "supersampling with n = %d, outside 0..%d",
-                        supersampling->n, PEL_SUPERSAMPLING_MAX);
-    if ((unsigned)supersampling->pattern > PEL_PATTERN_HAMMERSLEY ||
-        (unsigned)supersampling->filter > PEL_RECONSTRUCTION_GAUSSIAN)
-        return pel_fail(PEL_ERROR_ARGUMENT, "supersampling with pattern %d and filter %d",
-                        (int)supersampling->pattern, (int)supersampling->filter);
-    if (!(supersampling->adaptive >= 0))
-        return pel_fail(PEL_ERROR_ARGUMENT, "adaptive supersampling beyond %g, must be at least 0",
-                        supersampling->adaptive);
-    return true;
-}
-
-static bool check_settings(const struct pel_scene *scene) {
-    const struct pel_render_settings *settings = &scene->render;
-    if (settings->width < 1 || settings->height < 1 || settings->width > PICTURE_MAX ||
-        settings->height > PICTURE_MAX)
-        return pel_fail(PEL_ERROR_ARGUMENT, "picture of %d x %d pixels, outside 1..%d",
-                        settings->width, settings->height, PICTURE_MAX);
-    if (!(settings->step > 0) || !isfinite(settings->step))
-        return pel_fail(PEL_ERROR_ARGUMENT, "step of %g voxels, must be above 0", settings->step);
-    if (!(settings->phase >= 0 && settings->phase <= 1))
-        return pel_fail(PEL_ERROR_ARGUMENT, "phase %g, outside 0..1", settings->phase);
-    if (!(settings->termination >= 0 && settings->termination <= 1))
-        return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
-    return check_supersampling(&settings->supersampling);
 }
 
 // Refuses a frame whose voxels and picture together do not fit, before anything is allocated.
@@ -303,11 +244,10 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     double mark = now_ms();
     struct pel_device *device = renderer->device;
     int lanes = statistics->lanes;
-    bool skip = statistics->skip != PEL_SKIP_NONE;
     struct pel_variant variant =
         pel_variant_choose(world, layout->reader, statistics->skip, lanes,
                            pel_device_describe(device)->max_constant_bytes);
-    struct pel_kernel *kernel = find_kernel(renderer, &variant);
+    struct pel_kernel *kernel = pel_kernel_cache_find(&renderer->kernels, device, &variant);
     if (!kernel)
         return NULL;
     statistics->build_ms = lap_ms(&mark);
@@ -330,7 +270,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, kernel, skip) ||
+                              &renderer->residency, kernel, statistics->skip) ||
         !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);
@@ -384,7 +324,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
         statistics = &unwanted;
     *statistics = (struct pel_render_statistics){0};
     uint64_t uploaded_before = pel_device_uploaded_bytes(renderer->device);
-    if (!check_settings(scene))
+    if (!pel_settings_check(scene))
         return NULL;
 
     // Where the voxels lie decides what the world's bytes say.
@@ -466,8 +406,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_resolve_finish(&renderer->resolve);
     pel_buffer_destroy(renderer->picture);
     pel_buffer_destroy(renderer->sample_counts);
-    for (int i = 0; i < KERNEL_CACHE; i++)
-        pel_kernel_destroy(renderer->kernels[i].kernel);
+    pel_kernel_cache_finish(&renderer->kernels);
     pel_kernel_destroy(renderer->bake);
     pel_device_close(renderer->device);
     free(renderer);

@@ -3,6 +3,21 @@
 
 #include <stdio.h>
 
+static int skip_knob(enum pel_skip skip) {
+    switch (skip) {
+    case PEL_SKIP_NONE:
+        return SKIP_NONE;
+    case PEL_SKIP_GRID:
+        return SKIP_GRID;
+    case PEL_SKIP_OCTREE:
+        return SKIP_OCTREE;
+    case PEL_SKIP_AUTO:
+    case PEL_SKIP_DISTANCE:
+        break;
+    }
+    return SKIP_DISTANCE;
+}
+
 struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_reader reader,
                                       enum pel_skip skip, int lanes, uint64_t constant_bytes) {
     int parts = world->bytes.part_count;
@@ -13,9 +28,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .voxels = world->voxels ? world->voxels : VOXELS_U8,
         .filters = world->filters ? world->filters : FILTERS_LINEAR,
         .mixing = world->mixing,
-        .skip = skip == PEL_SKIP_NONE   ? SKIP_NONE
-                : skip == PEL_SKIP_GRID ? SKIP_GRID
-                                        : SKIP_DISTANCE,
+        .skip = skip_knob(skip),
         .capacity = parts <= 1   ? 1
                     : parts <= 8 ? 8
                                  : WORLD_PART_MAX,

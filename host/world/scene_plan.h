@@ -64,6 +64,9 @@ bool pel_scene_read_material(struct pel_material *material, const struct pel_sce
 // A colour by name, as #rrggbb[aa] or as 3 or 4 numbers; without an alpha, rgba[3] stays.
 bool pel_scene_read_colour(double rgba[4], const struct pel_scene_node *object, const char *key);
 
+// `step` or `step_mm` of a scene's settings or of a volume, but not both.
+bool pel_scene_read_step(const struct pel_scene_node *object, double *step, double *step_mm);
+
 // The one instance of that name; fails about `node` when there is none, or several.
 bool pel_scene_find_instance(const struct pel_scene *scene, const struct pel_scene_node *node,
                              const char *name, int *instance);

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "camera/camera.h"
 #include "world/lighting.h"
+#include "world/step.h"
 #include "world/strength.h"
 
 static float4 to_float4(const double v[3], double w) {
@@ -54,20 +55,6 @@ static bool fill_camera(struct camera *out, const struct pel_camera *camera,
         out->up = to_float4(upward, 0);
     }
     return true;
-}
-
-// The smallest distance of neighbouring voxels over all visible instances.
-static double finest_spacing(const struct pel_scene *scene) {
-    double finest = INFINITY;
-    for (int k = 0; k < scene->instance_count; k++) {
-        if (scene->instances[k].hidden)
-            continue;
-        double spacing[3];
-        pel_volume_spacing(scene->volumes[scene->instances[k].volume], spacing);
-        for (int i = 0; i < 3; i++)
-            finest = fmin(finest, spacing[i]);
-    }
-    return isfinite(finest) ? finest : 1;
 }
 
 // What has to be added to a stored voxel to have the file's raw one: signed integers are stored
@@ -243,7 +230,7 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->background =
         (float4){(float)(scene->background[0] * alpha), (float)(scene->background[1] * alpha),
                  (float)(scene->background[2] * alpha), (float)alpha};
-    bytes->step_mm = (float)(settings->step * finest_spacing(scene));
+    bytes->step_mm = (float)pel_step_of_scene(scene);
     bytes->phase = (float)settings->phase;
     bytes->termination = settings->termination < 1 ? (float)settings->termination : 2;
     bytes->origin_bounds = settings->origin == PEL_ORIGIN_BOUNDS;
@@ -279,6 +266,8 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         struct part pattern = {0};
         if (!fill_filter(&pattern, instance))
             return false;
+        pattern.step_mm = (float)pel_step_of_instance(scene, instance);
+        pattern.density = (float)instance->density;
         world->filters |= pattern.filter;
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;

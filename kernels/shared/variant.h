@@ -29,6 +29,17 @@
 #define SKIP_NONE 0     // not at all
 #define SKIP_GRID 1     // cell by cell
 #define SKIP_DISTANCE 2 // by the distance to the nearest cell with something in it
+#define SKIP_OCTREE 3   // by the nodes of an octree
+
+// Of a part: how light is gathered in it (docs/picture.md, "Optical models").
+#define MODEL_ABSORPTION 0
+#define MODEL_PREINTEGRATED 1 // absorption between samples, from a table of pairs of values
+#define MODEL_EMISSION 2
+#define MODEL_MIP 3
+#define MODEL_MINIP 4
+#define MODEL_AVERAGE 5
+#define MODEL_ISO 6
+#define MODEL_THESIS 7
 
 // Of a part: how it is shaded. The knob SHADING is 1 when any part is.
 #define SHADING_NONE 0

@@ -62,9 +62,15 @@ struct part {
     float spacing_mm;           // of the nearest voxels
     i32 shading;                // one of SHADING_*
     i32 one_sided;              // 1: light comes only from where the normal points
+    float4 surface_values;      // model iso: of its surfaces, as places in the table, ascending
+    float4 surfaces[4];         // their straight colours and opacities
+    i32 surface_count;          //
+    i32 model;                  // one of MODEL_*
+    float step_mm;              // the distance of its samples where it has a grid of its own
+    float density;              //
 };
 
-SHARED_ASSERT(sizeof(struct part) == 224, part_size);
+SHARED_ASSERT(sizeof(struct part) == 320, part_size);
 
 struct world {
     struct camera camera;
@@ -88,6 +94,6 @@ struct world {
     struct part parts[WORLD_PART_MAX];
 };
 
-SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 224 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 320 * WORLD_PART_MAX, world_size);
 
 #endif
