@@ -52,27 +52,26 @@ INLINE void single_taps(struct taps *taps, real start, const real weight[4], flo
     }
 }
 
-INLINE struct taps cubic_taps(__constant struct part *part, real x, float high) {
+INLINE void cubic_taps(struct taps *taps, __constant struct part *part, real x, float high) {
     const real start = floor(x);
-    struct taps taps;
     real weight[4];
     if (IS_FILTER(part, FILTERS_CUBIC_B_SPLINE)) {
         b_spline_weights(x - start, weight);
-        pair_taps(&taps, start, weight, high);
+        pair_taps(taps, start, weight, high);
     } else {
         catmull_rom_weights(x - start, weight);
-        single_taps(&taps, start, weight, high);
+        single_taps(taps, start, weight, high);
     }
-    return taps;
 }
 
 INLINE struct sample sample_cubic(MEMORY_PARAMETERS, __constant struct part *part, real x, real y,
                                   real z) {
     const bool linear = IS_FILTER(part, FILTERS_CUBIC_B_SPLINE);
     const int count = linear ? 2 : 4;
-    const struct taps along_x = cubic_taps(part, x, part->memory_high.x),
-                      along_y = cubic_taps(part, y, part->memory_high.y),
-                      along_z = cubic_taps(part, z, part->memory_high.z);
+    struct taps along_x, along_y, along_z;
+    cubic_taps(&along_x, part, x, part->memory_high.x);
+    cubic_taps(&along_y, part, y, part->memory_high.y);
+    cubic_taps(&along_z, part, z, part->memory_high.z);
     struct sample sum;
     sum.raw = (real)(0.0f);
 #if VOXELS & VOXELS_RGBA
