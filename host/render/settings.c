@@ -2,6 +2,7 @@
 #include "render/settings.h"
 
 #include "base/error.h"
+#include "world/bricks.h"
 #include "world/step.h"
 
 enum { PICTURE_MAX = 32768 };
@@ -32,5 +33,5 @@ bool pel_settings_check(const struct pel_scene *scene) {
         return pel_fail(PEL_ERROR_ARGUMENT, "phase %g, outside 0..1", settings->phase);
     if (!(settings->termination >= 0 && settings->termination <= 1))
         return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
-    return check_supersampling(&settings->supersampling);
+    return pel_bricks_check(&settings->bricks) && check_supersampling(&settings->supersampling);
 }

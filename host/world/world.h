@@ -28,6 +28,9 @@ struct pel_world {
 // WORLD_PART_MAX.
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout);
+// The cells of part p along x, y and z (shared/grid.h).
+void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]);
+
 void pel_world_finish(struct pel_world *world);
 
 #endif
