@@ -229,6 +229,10 @@ static int print_json(const struct run *run) {
     json_object_set_new(object, "device_bytes", json_integer((json_int_t)statistics->device_bytes));
     json_object_set_new(object, "uploaded_bytes",
                         json_integer((json_int_t)statistics->uploaded_bytes));
+    if (run->scene->render.debug != PEL_DEBUG_NONE)
+        json_object_set_new(object, "debug",
+                            json_pack("{s:f, s:f, s:f}", "min", statistics->debug.min, "max",
+                                      statistics->debug.max, "mean", statistics->debug.mean));
     json_object_set_new(object, "skip", json_string(report_skip(statistics->skip)));
     json_object_set_new(object, "skip_bytes", json_integer((json_int_t)statistics->skip_bytes));
     if (statistics->bricks.size > 0)

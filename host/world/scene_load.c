@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
+#include "world/scene.h"
 
 static bool same_text(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
@@ -47,15 +48,6 @@ static bool same_volume(const struct pel_volume_plan *a, const struct pel_volume
            same_triple(a->spacing, b->spacing);
 }
 
-// Directions and the centre of voxel (0,0,0) stay, the distances between voxels are replaced.
-static void replace_spacing(struct pel_volume *volume, const double spacing_mm[3]) {
-    double old_mm[3];
-    pel_volume_spacing(volume, old_mm);
-    for (int row = 0; row < 3; row++)
-        for (int axis = 0; axis < 3; axis++)
-            volume->world_from_voxel.m[row][axis] *= spacing_mm[axis] / old_mm[axis];
-}
-
 // Loads the volume of one instance, or finds it among those already there.
 static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, int instance) {
     struct pel_volume_plan *wanted = &plan->volume[instance];
@@ -65,14 +57,19 @@ static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, in
             return true;
         }
     }
-    struct pel_volume *volume = wanted->file ? pel_volume_load(wanted->file, &wanted->load)
-                                             : pel_volume_generate(wanted->kind, &wanted->generate);
+    struct pel_volume_source source = {
+        wanted->file,
+        wanted->load,
+        wanted->kind,
+        wanted->generate,
+        {wanted->spacing[0], wanted->spacing[1], wanted->spacing[2]}};
+    struct pel_volume *volume = pel_volume_source_open(&source);
     if (!volume)
         return pel_node_fail_in(&wanted->node);
-    if (wanted->spacing[0] > 0)
-        replace_spacing(volume, wanted->spacing);
     int index = scene->volume_count++;
     scene->volumes[index] = volume;
+    if (!pel_volume_source_copy(&scene->sources[index], &source))
+        return false;
     pel_volume_measure(volume, &scene->statistics[index]);
     scene->instances[instance].volume = index;
     return true;
