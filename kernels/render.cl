@@ -12,6 +12,9 @@
 #if DEBUG
 #include "debug.cl"
 #endif
+#if PROBE
+#include "probe_log.cl"
+#endif
 #if SUPERSAMPLING
 #include "resolve.cl"
 #endif
@@ -61,6 +64,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             const struct entry entry = find_entry(part, sample.raw, &present);
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
+#if PROBE
+            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, light.a);
+#endif
             if (!any_lane(visible)) {
                 cursor->next = cursor_leap(part, cells, cursor, i + 1);
                 continue;
@@ -80,6 +86,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             if (part->shading != SHADING_NONE)
                 shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first, t, x, y, z,
                       CHOOSE(zero, sample.raw, visible), &r, &g, &b);
+#endif
+#if PROBE
+            log_colour(crossing, r, g, b);
 #endif
             mix_add(&mixture, &light, r, g, b, CHOOSE(zero, strength, visible));
         }
@@ -135,3 +144,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
 #endif
     store_pixels(world, picture, left, top, &ray, &light);
 }
+
+#if PROBE
+#include "probe.cl"
+#endif

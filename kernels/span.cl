@@ -5,6 +5,7 @@
 #ifndef SPAN_CL
 #define SPAN_CL
 
+#include "shared/probe.h"
 #include "traverse/cursor.cl"
 
 #ifndef SKIP
@@ -24,6 +25,9 @@
 #ifndef SHADING
 #define SHADING 0 // 1: some volume is shaded
 #endif
+#ifndef PROBE
+#define PROBE 0 // 1: one ray writes down what it meets
+#endif
 #ifndef CAPACITY
 #define CAPACITY 1 // parts the kernel has room for: 1, 8 or WORLD_PART_MAX
 #endif
@@ -40,7 +44,13 @@ struct crossing {
     int count;
 #if SHADING
     struct ray ray;
+#endif
+#if SHADING || PROBE
     real t_first; // where sample 0 lies
+#endif
+#if PROBE
+    __global struct probe_sample *log;
+    int logged; // samples that have been there to write
 #endif
 };
 
@@ -61,7 +71,9 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     }
 #if SHADING
     crossing->ray = *ray;
-    crossing->t_first = fmin(t_near, 1e9f) + world->phase * world->step_mm;
+#endif
+#if SHADING || PROBE
+    crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
 #endif
     crossing->count = 0;
     for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
