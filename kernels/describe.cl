@@ -52,8 +52,8 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, table_last);
     *out++ = OFFSET(struct part, table);
     *out++ = OFFSET(struct part, offset);
-    *out++ = OFFSET(struct part, row);
-    *out++ = OFFSET(struct part, slice);
+    *out++ = OFFSET(struct part, brick_row);
+    *out++ = OFFSET(struct part, brick_slice);
     *out++ = OFFSET(struct part, buffer);
     *out++ = OFFSET(struct part, voxels);
     *out++ = OFFSET(struct part, filter);

@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "camera/camera.h"
+#include "world/brick.h"
 #include "world/lighting.h"
 #include "world/step.h"
 #include "world/strength.h"
@@ -118,8 +119,6 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         part->box_high = to_float4(high, 0);
         part->memory_from_voxel = to_float4(shift, 0);
         part->atlas_from_memory = to_float4(origin, 0);
-        part->row = volume->dims[0] + 2;
-        part->slice = (volume->dims[0] + 2) * (volume->dims[1] + 2);
         part->buffer = slab->buffer;
         part->offset = (u32)(slab->offset_bytes / pel_voxel_class_bytes(slab->class_index));
         part->voxels = 1 << slab->class_index;
@@ -129,6 +128,8 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         pel_slab_dims(slab, volume, stored);
         part->memory_high =
             (float4){(float)stored[0] - 1.5F, (float)stored[1] - 1.5F, (float)stored[2] - 1.5F, 0};
+        part->brick_row = (i32)pel_brick_count(stored[0]);
+        part->brick_slice = part->brick_row * (i32)pel_brick_count(stored[1]);
         part->cell_row = (i32)pel_grid_cells(stored[0]);
         part->cell_slice = part->cell_row * (i32)pel_grid_cells(stored[1]);
         part->cells = (u32)world->cell_count;
