@@ -1,5 +1,5 @@
 // scene_read_settings.c - the parts of a scene file that do not need its volumes: background,
-// render settings and output.
+// render settings and output, read and written.
 #include "world/scene_plan.h"
 
 #include <limits.h>
@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "world/scene_write.h"
 
 enum { PICTURE_MAX = 32768 };
 
@@ -91,6 +92,13 @@ bool pel_scene_read_step(const struct pel_scene_node *object, double *step, doub
            pel_node_get_number(object, "step_mm", &pel_positive_number, step_mm);
 }
 
+// Millimetres overrule voxels in memory, too.
+void pel_scene_write_step(struct pel_scene_writer *writer, json_t *object, double step,
+                          double step_mm, double usual) {
+    pel_write_number(writer, object, "step", step_mm > 0 ? usual : step, usual);
+    pel_write_number(writer, object, "step_mm", step_mm, 0);
+}
+
 static bool read_supersampling(struct pel_supersampling *supersampling,
                                const struct pel_scene_node *render) {
     struct pel_scene_node node;
@@ -108,6 +116,18 @@ static bool read_supersampling(struct pel_supersampling *supersampling,
     supersampling->filter = (enum pel_reconstruction)filter;
     supersampling->seed = (uint32_t)seed;
     return good;
+}
+
+static void write_supersampling(struct pel_scene_writer *writer, json_t *render) {
+    const struct pel_supersampling *supersampling = &writer->scene->render.supersampling;
+    json_t *object = pel_write_object(writer, render, "supersampling");
+    pel_write_number(writer, object, "n", supersampling->n, 0);
+    pel_write_name(writer, object, "pattern", pattern_names, supersampling->pattern, 0);
+    pel_write_name(writer, object, "filter", reconstruction_names, supersampling->filter, 0);
+    pel_write_number(writer, object, "seed", supersampling->seed, 0);
+    pel_write_number(writer, object, "adaptive", supersampling->adaptive, 0);
+    if (json_object_size(object) == 0)
+        json_object_del(render, "supersampling");
 }
 
 static bool read_render(struct pel_render_settings *render, const struct pel_scene_node *scene) {
@@ -130,6 +150,21 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
     render->origin = (enum pel_sample_origin)origin;
     render->skip = (enum pel_skip)skip;
     return good;
+}
+
+static void write_render(struct pel_scene_writer *writer, json_t *scene) {
+    const struct pel_render_settings *render = &writer->scene->render;
+    const struct pel_render_settings *usual = &writer->usual->render;
+    json_t *object = pel_write_object(writer, scene, "render");
+    pel_write_numbers(writer, object, "size", 2, (double[]){render->width, render->height});
+    pel_write_name(writer, object, "mixing", mixing_names, render->mixing, usual->mixing);
+    pel_scene_write_step(writer, object, render->step, render->step_mm, usual->step);
+    pel_write_number(writer, object, "phase", render->phase, usual->phase);
+    pel_write_number(writer, object, "termination", render->termination, usual->termination);
+    pel_write_name(writer, object, "origin", origin_names, render->origin, usual->origin);
+    pel_write_name(writer, object, "skip", skip_names, render->skip, usual->skip);
+    write_supersampling(writer, object);
+    pel_write_bool(writer, object, "jitter", render->jitter, false);
 }
 
 static bool read_output_file(struct pel_output_settings *output,
@@ -170,8 +205,29 @@ static bool read_output(struct pel_output_settings *output, const struct pel_sce
     return true;
 }
 
+static void write_output(struct pel_scene_writer *writer, json_t *scene) {
+    const struct pel_output_settings *output = &writer->scene->output;
+    json_t *object = pel_write_object(writer, scene, "output");
+    if (strcmp(output->path, "-") == 0)
+        pel_write_text(writer, object, "file", "-");
+    else if (*output->path)
+        pel_write_path(writer, object, "file", output->path);
+    pel_write_number(writer, object, "depth", output->depth, writer->usual->output.depth);
+    pel_write_name(writer, object, "alpha", alpha_names, output->premultiplied, 0);
+    if (json_object_size(object) == 0)
+        json_object_del(scene, "output");
+}
+
 bool pel_scene_read_settings(struct pel_scene *scene, const struct pel_scene_node *node) {
     return pel_scene_read_colour(scene->background, node, "background") &&
            pel_scene_read_lights(scene, node) && read_render(&scene->render, node) &&
            read_output(&scene->output, node);
+}
+
+void pel_scene_write_settings(struct pel_scene_writer *writer, json_t *root) {
+    const double *background = writer->scene->background;
+    if (memcmp(background, writer->usual->background, sizeof writer->usual->background) != 0)
+        pel_write_colour(writer, root, "background", background, true);
+    write_render(writer, root);
+    write_output(writer, root);
 }
