@@ -462,6 +462,18 @@ struct pel_supersampling {
                      // any channel, 0..1, get n x n rays, and the others one; 0 = all pixels do
 };
 
+// What a picture shows of each pixel's ray instead of its light: a number, as a heat map. One ray
+// goes through each pixel's centre, whatever the supersampling.
+enum pel_debug {
+    PEL_DEBUG_NONE,
+    PEL_DEBUG_SAMPLES,    // samples taken
+    PEL_DEBUG_SPANS,      // spans of the ray with a constant set of volumes
+    PEL_DEBUG_VOLUMES,    // volumes crossed in which something may be visible: depth complexity
+    PEL_DEBUG_WORK_GROUP, // which work-group made the pixel, a colour each
+    PEL_DEBUG_WORK_ITEM,  // which work-item of its group
+    PEL_DEBUG_TIME,       // milliseconds that the pixel's tile took, each launched on its own
+};
+
 struct pel_render_settings {
     int width, height;      // pixels
     enum pel_mixing mixing; //
@@ -472,7 +484,8 @@ struct pel_render_settings {
     enum pel_sample_origin origin;
     enum pel_skip skip; //
     struct pel_supersampling supersampling;
-    bool jitter; // every ray has a random phase of its own in place of `phase`
+    bool jitter;          // every ray has a random phase of its own in place of `phase`
+    enum pel_debug debug; //
 };
 
 struct pel_output_settings {
@@ -621,6 +634,11 @@ struct pel_image {
     float *rgba; // owned; premultiplied; rows from the top
 };
 
+// The numbers of a debug view over the picture's pixels.
+struct pel_debug_range {
+    double min, max, mean;
+};
+
 // What one frame took.
 struct pel_render_statistics {
     char device[128], driver[128];
@@ -633,6 +651,7 @@ struct pel_render_statistics {
     uint64_t uploaded_bytes; // sent to the device for this frame
     enum pel_skip skip;
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
+    struct pel_debug_range debug; // of the scene's debug view, zeros without one
     // Of two eyes; all of the above is then their sum.
     struct {
         double separation_mm, convergence_mm; // as they were used
@@ -649,6 +668,7 @@ typedef bool (*pel_progress_callback)(double finished, void *user);
 struct pel_render_options {
     pel_progress_callback progress;
     void *user;
+    float *numbers; // receives a debug view's number of each pixel, rows from the top; may be NULL
 };
 
 // Opens a device. Fails (DEVICE, ARGUMENT) with a sentence that lists what was found.

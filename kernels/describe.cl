@@ -52,8 +52,8 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, table_last);
     *out++ = OFFSET(struct part, table);
     *out++ = OFFSET(struct part, offset);
-    *out++ = OFFSET(struct part, row);
-    *out++ = OFFSET(struct part, slice);
+    *out++ = OFFSET(struct part, brick_row);
+    *out++ = OFFSET(struct part, brick_slice);
     *out++ = OFFSET(struct part, buffer);
     *out++ = OFFSET(struct part, voxels);
     *out++ = OFFSET(struct part, filter);
@@ -92,6 +92,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, seed);
     *out++ = OFFSET(struct world, contrast);
     *out++ = OFFSET(struct world, lamp_count);
+    *out++ = OFFSET(struct world, debug);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
     describe_recipe(out);

@@ -9,8 +9,15 @@
 #include "pixel.cl"
 #include "shade.cl"
 #include "span.cl"
+#if DEBUG
+#include "debug.cl"
+#endif
 #if SUPERSAMPLING
 #include "resolve.cl"
+#endif
+
+#ifndef DEBUG
+#define DEBUG 0 // 1: a number of each ray in place of its light
 #endif
 
 // Follows the rays and returns the light they gather. Adds the samples taken to *samples.
@@ -123,5 +130,8 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     light.b += clear * behind.z;
     light.a += clear * behind.w;
     *count = earlier + (uint)sum_lanes(samples);
+#if DEBUG
+    light.r = debug_number(world, &crossing, samples);
+#endif
     store_pixels(world, picture, left, top, &ray, &light);
 }

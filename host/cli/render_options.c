@@ -23,6 +23,7 @@ enum {
     KEY_ADAPTIVE,
     KEY_SEED,
     KEY_JITTER,
+    KEY_DEBUG,
     KEY_DENSITY,
     KEY_SHADING,
     KEY_BACKGROUND,
@@ -97,6 +98,8 @@ static const struct argp_option argp_options[] = {
      "N x N rays only where neighbouring pixels differ by more than X, 0 to 1", 0},
     {"seed", KEY_SEED, "N", 0, "Seed of all random patterns", 0},
     {"jitter", KEY_JITTER, NULL, 0, "A random phase for every ray", 0},
+    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time", 0,
+     "Show a number of each pixel's ray in place of its light, as a heat map", 0},
     {0, 0, NULL, 0, "The device:", 5},
     {"device", KEY_DEVICE, "D", 0,
      "Number, part of the name, or type (gpu, cpu); 'pellucid devices' lists them", 0},
@@ -270,6 +273,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_JITTER:
         overrides_add(&options->overrides, "render.jitter", "true");
+        break;
+    case KEY_DEBUG:
+        overrides_add_text(&options->overrides, "render.debug", argument);
         break;
     case KEY_FILTER:
         overrides_add_text(&options->overrides, "volumes.*.filter", argument);

@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "device/device.h"
 #include "render/bake.h"
+#include "render/debug.h"
 #include "render/frame.h"
 #include "render/kernel_cache.h"
 #include "render/mirror.h"
@@ -37,6 +38,7 @@ struct pel_renderer {
     struct pel_buffer *picture, *sample_counts;
     size_t picture_bytes, sample_counts_bytes;
     double tiles_per_ms; // as the last frame ran; 0 = unknown
+    float *tile_ms;      // what each tile takes, while a debug view asks for it
 };
 
 static double now_ms(void) {
@@ -161,11 +163,19 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
     for (size_t tile = 0; tile < extent->tiles;) {
         size_t left = extent->tiles - tile;
         size_t count = batch < 1 ? 1 : batch < (double)left ? (size_t)batch : left;
+        if (renderer->tile_ms)
+            count = 1;
         count = round_up(count, extent->tiles_per_group);
         if (count > left)
             count = left;
+        // A first launch warms up what it needs, and should not count.
+        if (renderer->tile_ms && tile == 0 && !run_batch(renderer, kernel, extent, 0, count))
+            return false;
+        double begin_ms = now_ms();
         if (!run_batch(renderer, kernel, extent, tile, count))
             return false;
+        for (size_t i = 0; renderer->tile_ms && i < count; i++)
+            renderer->tile_ms[tile + i] = (float)((now_ms() - begin_ms) / (double)count);
         tile += count;
         double finished = pass.number + (double)tile / (double)extent->tiles;
         if (options && options->progress &&
@@ -278,6 +288,35 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     return kernel;
 }
 
+// Runs the kernel as often as a picture needs.
+static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
+                       const struct pel_scene *scene, const struct extent *extent,
+                       bool supersampling, const struct pel_render_options *options,
+                       struct pel_render_statistics *statistics) {
+    statistics->rays = (uint64_t)scene->render.width * (uint64_t)scene->render.height;
+    statistics->refined = 1;
+    if (supersampling)
+        return run_rays(renderer, kernel, scene, extent, options, statistics);
+    if (scene->render.debug == PEL_DEBUG_TIME) {
+        renderer->tile_ms = pel_allocate(extent->tiles, sizeof *renderer->tile_ms);
+        if (!renderer->tile_ms)
+            return false;
+    }
+    return run_tiles(renderer, kernel, extent, options, (struct pass){0, 1});
+}
+
+// Makes a debug view's picture of what came from the device.
+static bool paint(struct pel_image *image, const struct pel_renderer *renderer, enum pel_debug view,
+                  const struct pel_render_options *options,
+                  struct pel_render_statistics *statistics) {
+    size_t tiles_x = ((size_t)image->width + TILE_PX - 1) / TILE_PX;
+    for (int y = 0; renderer->tile_ms && y < image->height; y++)
+        for (int x = 0; x < image->width; x++)
+            image->rgba[4 * ((size_t)y * (size_t)image->width + (size_t)x)] =
+                renderer->tile_ms[(size_t)(y / TILE_PX) * tiles_x + (size_t)(x / TILE_PX)];
+    return pel_debug_paint(image, view, options ? options->numbers : NULL, &statistics->debug);
+}
+
 // Runs the kernel and brings the picture here. The caller owns it.
 static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *kernel,
                              const struct pel_scene *scene, const struct extent *extent,
@@ -285,16 +324,16 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
                              struct pel_render_statistics *statistics) {
     double mark = now_ms();
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
-    statistics->rays = pixels;
-    statistics->refined = 1;
-    if (!(supersampling ? run_rays(renderer, kernel, scene, extent, options, statistics)
-                        : run_tiles(renderer, kernel, extent, options, (struct pass){0, 1})))
-        return NULL;
+    bool good = run_passes(renderer, kernel, scene, extent, supersampling, options, statistics);
     statistics->render_ms = lap_ms(&mark);
-    struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
-    if (!image)
-        return NULL;
-    if (!pel_buffer_read(renderer->picture, 0, pixels * sizeof(float4), image->rgba)) {
+    struct pel_image *image =
+        good ? pel_image_create(scene->render.width, scene->render.height) : NULL;
+    good = image && pel_buffer_read(renderer->picture, 0, pixels * sizeof(float4), image->rgba) &&
+           (scene->render.debug == PEL_DEBUG_NONE ||
+            paint(image, renderer, scene->render.debug, options, statistics));
+    free(renderer->tile_ms);
+    renderer->tile_ms = NULL;
+    if (!good) {
         pel_image_destroy(image);
         return NULL;
     }

@@ -32,5 +32,7 @@ bool pel_settings_check(const struct pel_scene *scene) {
         return pel_fail(PEL_ERROR_ARGUMENT, "phase %g, outside 0..1", settings->phase);
     if (!(settings->termination >= 0 && settings->termination <= 1))
         return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
+    if ((unsigned)settings->debug > PEL_DEBUG_TIME)
+        return pel_fail(PEL_ERROR_ARGUMENT, "debug view %d", (int)settings->debug);
     return check_supersampling(&settings->supersampling);
 }

@@ -12,9 +12,9 @@
 
 enum { PICTURE_MAX = 32768 };
 
-static const char *const render_keys[] = {"comment", "size",          "mixing",      "step",
-                                          "step_mm", "phase",         "termination", "origin",
-                                          "skip",    "supersampling", "jitter",      NULL};
+static const char *const render_keys[] = {
+    "comment", "size", "mixing",        "step",   "step_mm", "phase", "termination",
+    "origin",  "skip", "supersampling", "jitter", "debug",   NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
@@ -23,6 +23,8 @@ static const char *const output_keys[] = {"comment", "file", "depth", "alpha", N
 static const char *const mixing_names[] = {"sum", "over", NULL};
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
 static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", NULL};
+static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
+                                          "work-group", "work-item", "time",  NULL};
 static const char *const pattern_names[] = {"regular",        "jittered",   "n-rooks",
                                             "multi-jittered", "hammersley", NULL};
 static const char *const reconstruction_names[] = {"box", "gaussian", NULL};
@@ -136,6 +138,7 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
         return true;
     const struct pel_range termination_range = {.low = 0, .high = 1, .low_open = true};
     int mixing = (int)render->mixing, origin = (int)render->origin, skip = (int)render->skip;
+    int debug = (int)render->debug;
     bool good =
         pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
         pel_node_get_name(&node, "mixing", mixing_names, &mixing) &&
@@ -145,10 +148,12 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
         pel_node_get_name(&node, "origin", origin_names, &origin) &&
         pel_node_get_name(&node, "skip", skip_names, &skip) &&
         read_supersampling(&render->supersampling, &node) &&
-        pel_node_get_bool(&node, "jitter", &render->jitter);
+        pel_node_get_bool(&node, "jitter", &render->jitter) &&
+        pel_node_get_name(&node, "debug", debug_names, &debug);
     render->mixing = (enum pel_mixing)mixing;
     render->origin = (enum pel_sample_origin)origin;
     render->skip = (enum pel_skip)skip;
+    render->debug = (enum pel_debug)debug;
     return good;
 }
 

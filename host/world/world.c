@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "camera/camera.h"
+#include "world/brick.h"
 #include "world/lighting.h"
 #include "world/step.h"
 #include "world/strength.h"
@@ -117,8 +118,6 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         part->box_high = to_float4(high, 0);
         part->memory_from_voxel = to_float4(shift, 0);
         part->atlas_from_memory = to_float4(origin, 0);
-        part->row = volume->dims[0] + 2;
-        part->slice = (volume->dims[0] + 2) * (volume->dims[1] + 2);
         part->buffer = slab->buffer;
         part->offset = (u32)(slab->offset_bytes / pel_voxel_class_bytes(slab->class_index));
         part->voxels = 1 << slab->class_index;
@@ -128,6 +127,8 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         pel_slab_dims(slab, volume, stored);
         part->memory_high =
             (float4){(float)stored[0] - 1.5F, (float)stored[1] - 1.5F, (float)stored[2] - 1.5F, 0};
+        part->brick_row = (i32)pel_brick_count(stored[0]);
+        part->brick_slice = part->brick_row * (i32)pel_brick_count(stored[1]);
         part->cell_row = (i32)pel_grid_cells(stored[0]);
         part->cell_slice = part->cell_row * (i32)pel_grid_cells(stored[1]);
         part->cells = (u32)world->cell_count;
@@ -244,6 +245,8 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->reconstruction = (i32)supersampling->filter;
     bytes->seed = supersampling->seed;
     bytes->contrast = (float)supersampling->adaptive;
+    bytes->debug =
+        (i32)settings->debug; // the numbers of shared/variant.h are in the order of the enum
 }
 
 static bool fill_instances(struct pel_world *world, const struct pel_scene *scene,
@@ -286,7 +289,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
         !pel_lighting_fill_lamps(&world->bytes, scene, centre))
         return false;
 
-    world->supersampling = is_supersampled(&scene->render.supersampling);
+    world->supersampling = !scene->render.debug && is_supersampled(&scene->render.supersampling);
     world->jitter = scene->render.jitter;
     world->mixing = scene->render.mixing == PEL_MIX_SUM ? MIXING_SUM : MIXING_OVER;
     struct pel_table tables[PEL_VOLUME_MAX] = {{0}};

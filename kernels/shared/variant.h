@@ -53,6 +53,15 @@
 #define LAMP_POINT 2       // one place
 #define LAMP_MAX 8
 
+// What a debug view shows of each ray (kernels/debug.cl). The knob DEBUG is 1 when the device counts.
+#define DEBUG_NONE 0
+#define DEBUG_SAMPLES 1    // samples taken
+#define DEBUG_SPANS 2      // spans with a constant set of parts
+#define DEBUG_PARTS 3      // parts crossed: depth complexity
+#define DEBUG_WORK_GROUP 4 // which work-group made the pixel
+#define DEBUG_WORK_ITEM 5  // which work-item of its group
+#define DEBUG_TIME 6       // milliseconds of the pixel's tile, by the host's clock
+
 // Pixels along a side of the square tiles in which work is handed out.
 #define TILE_PX 16
 

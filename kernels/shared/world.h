@@ -49,7 +49,7 @@ struct part {
     float table_last;           // the last entry's index
     u32 table;                  // index of the table's first word
     u32 offset;                 // element of voxel memory (0,0,0) in its buffer
-    i32 row, slice;             // elements from one row and slice to the next
+    i32 brick_row, brick_slice; // bricks from one row and slice of them to the next (shared/brick.h)
     i32 buffer;                 // which voxel buffer
     i32 voxels;                 // one of VOXELS_*
     i32 filter;                 // one of FILTERS_*
@@ -89,7 +89,8 @@ struct world {
     u32 seed;           // of all random choices
     float contrast;     // between neighbours, beyond which a pixel takes all its rays; 0: all do
     i32 lamp_count;
-    i32 pad[2];
+    i32 debug; // one of DEBUG_*
+    i32 pad[1];
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
 };
