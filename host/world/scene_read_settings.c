@@ -170,6 +170,7 @@ static void write_render(struct pel_scene_writer *writer, json_t *scene) {
     pel_write_name(writer, object, "skip", skip_names, render->skip, usual->skip);
     write_supersampling(writer, object);
     pel_write_bool(writer, object, "jitter", render->jitter, false);
+    pel_write_name(writer, object, "debug", debug_names, render->debug, PEL_DEBUG_NONE);
 }
 
 static bool read_output_file(struct pel_output_settings *output,

@@ -50,7 +50,7 @@ static const char *const rich[] = {
     "   {'generate': {'kind': 'head-pair', 'size': 8, 'spacing': 20, 'type': 'float32',"
     "   'second': true}, 'palette': 'hot', 'opacity_unit': 7, 'step_mm': 0.2}],"
     " 'render': {'size': [34, 22], 'mixing': 'over', 'step': 0.7, 'phase': 0.25,"
-    "   'termination': 0.8, 'origin': 'bounds', 'skip': 'grid', 'jitter': true,"
+    "   'termination': 0.8, 'origin': 'bounds', 'skip': 'grid', 'jitter': true, 'debug': 'spans',"
     "   'supersampling': {'n': 2, 'pattern': 'n-rooks', 'filter': 'gaussian', 'seed': 3,"
     "   'adaptive': 0.1}},"
     " 'stereo': {'kind': 'matrix', 'separation': 5, 'convergence': 77.5, 'swap': true,"
