@@ -13,8 +13,8 @@
 enum { PICTURE_MAX = 32768 };
 
 static const char *const render_keys[] = {
-    "comment", "size", "mixing",        "step",   "step_mm", "phase", "termination",
-    "origin",  "skip", "supersampling", "jitter", "debug",   NULL};
+    "comment", "size",          "mixing", "step",  "step_mm", "phase", "termination",    "origin",
+    "skip",    "supersampling", "jitter", "debug", "model",   "order", "emission_scale", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
@@ -83,24 +83,6 @@ static bool read_size(struct pel_render_settings *render, const struct pel_scene
     return true;
 }
 
-bool pel_scene_read_step(const struct pel_scene_node *object, double *step, double *step_mm) {
-    const struct pel_range range = {.low = 0.001, .high = 1000};
-    struct pel_scene_node voxels, millimetres;
-    bool both = pel_node_member(&voxels, object, "step") &&
-                pel_node_member(&millimetres, object, "step_mm");
-    if (both)
-        return pel_node_fail(&millimetres, "stands beside 'step', which says the same in voxels");
-    return pel_node_get_number(object, "step", &range, step) &&
-           pel_node_get_number(object, "step_mm", &pel_positive_number, step_mm);
-}
-
-// Millimetres overrule voxels in memory, too.
-void pel_scene_write_step(struct pel_scene_writer *writer, json_t *object, double step,
-                          double step_mm, double usual) {
-    pel_write_number(writer, object, "step", step_mm > 0 ? usual : step, usual);
-    pel_write_number(writer, object, "step_mm", step_mm, 0);
-}
-
 static bool read_supersampling(struct pel_supersampling *supersampling,
                                const struct pel_scene_node *render) {
     struct pel_scene_node node;
@@ -142,7 +124,7 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
     bool good =
         pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
         pel_node_get_name(&node, "mixing", mixing_names, &mixing) &&
-        pel_scene_read_step(&node, &render->step, &render->step_mm) &&
+        pel_scene_read_march(render, &node) &&
         pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
         pel_node_get_number(&node, "termination", &termination_range, &render->termination) &&
         pel_node_get_name(&node, "origin", origin_names, &origin) &&
@@ -163,7 +145,7 @@ static void write_render(struct pel_scene_writer *writer, json_t *scene) {
     json_t *object = pel_write_object(writer, scene, "render");
     pel_write_numbers(writer, object, "size", 2, (double[]){render->width, render->height});
     pel_write_name(writer, object, "mixing", mixing_names, render->mixing, usual->mixing);
-    pel_scene_write_step(writer, object, render->step, render->step_mm, usual->step);
+    pel_scene_write_march(writer, object);
     pel_write_number(writer, object, "phase", render->phase, usual->phase);
     pel_write_number(writer, object, "termination", render->termination, usual->termination);
     pel_write_name(writer, object, "origin", origin_names, render->origin, usual->origin);

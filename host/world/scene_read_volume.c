@@ -13,9 +13,9 @@
 #include "world/scene_write.h"
 
 static const char *const volume_keys[] = {
-    "comment", "file",         "generate",  "raw",      "time",    "channel", "name",
-    "visible", "spacing",      "transform", "transfer", "density", "extent",  "filter",
-    "palette", "opacity_unit", "shading",   "step",     "step_mm", NULL};
+    "comment", "file",      "generate", "raw",     "time",   "channel", "name",    "visible",
+    "spacing", "transform", "transfer", "density", "extent", "filter",  "palette", "opacity_unit",
+    "shading", "step",      "step_mm",  "model",   "iso",    NULL};
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};
@@ -82,6 +82,7 @@ static bool read_volume(struct pel_instance *instance, struct pel_volume_plan *p
         !pel_node_get_number(node, "opacity_unit", &pel_positive_number, &plan->opacity_unit_mm) ||
         !pel_node_get_number(node, "density", &density_range, &instance->density) ||
         !pel_scene_read_step(node, &instance->step, &instance->step_mm) ||
+        !pel_scene_read_model(instance, node) ||
         !pel_scene_read_material(&instance->material, node) ||
         !pel_node_get_name(node, "extent", extent_names, &extent) ||
         !pel_node_get_name(node, "filter", filter_names, &filter))
@@ -114,7 +115,7 @@ static void write_volume(struct pel_scene_writer *writer, json_t *volume,
     pel_scene_write_pose(writer, volume, &instance->transform);
     pel_write_value(writer, volume, "transfer", pel_transfer_write(instance->transfer));
     pel_write_number(writer, volume, "density", instance->density, usual.density);
-    pel_scene_write_step(writer, volume, instance->step, instance->step_mm, usual.step);
+    pel_scene_write_model(writer, volume, instance);
     pel_scene_write_material(writer, volume, &instance->material);
     pel_write_name(writer, volume, "extent", extent_names, instance->extent, usual.extent);
     pel_write_name(writer, volume, "filter", filter_names, instance->filter, usual_filter);

@@ -52,8 +52,9 @@ void pel_scene_write_source(struct pel_scene_writer *writer, json_t *volume,
                             const struct pel_volume_source *source);
 void pel_scene_write_pose(struct pel_scene_writer *writer, json_t *volume,
                           const struct pel_matrix *transform);
-void pel_scene_write_step(struct pel_scene_writer *writer, json_t *object, double step,
-                          double step_mm, double usual);
+void pel_scene_write_march(struct pel_scene_writer *writer, json_t *render);
+void pel_scene_write_model(struct pel_scene_writer *writer, json_t *volume,
+                           const struct pel_instance *instance);
 void pel_scene_write_material(struct pel_scene_writer *writer, json_t *volume,
                               const struct pel_material *material);
 

@@ -48,9 +48,11 @@ static const char *const rich[] = {
     "   'shading': {'model': 'phong', 'ambient': 0.2, 'diffuse': 0.3, 'specular': 0.4,"
     "   'shininess': 55, 'two_sided': false}},"
     "   {'generate': {'kind': 'head-pair', 'size': 8, 'spacing': 20, 'type': 'float32',"
-    "   'second': true}, 'palette': 'hot', 'opacity_unit': 7, 'step_mm': 0.2}],"
+    "   'second': true}, 'palette': 'hot', 'opacity_unit': 7, 'step_mm': 0.2, 'model': 'iso', "
+    "'iso': [3.5, {'value': 4, 'colour': [0.1, 0.2, 0.3], 'opacity': 0.3}]}],"
     " 'render': {'size': [34, 22], 'mixing': 'over', 'step': 0.7, 'phase': 0.25,"
-    "   'termination': 0.8, 'origin': 'bounds', 'skip': 'grid', 'jitter': true, 'debug': 'spans',"
+    "   'termination': 0.8, 'origin': 'bounds', 'skip': 'grid', 'jitter': true, 'debug': 'spans', "
+    "'model': 'mip', 'order': 'back-to-front', 'emission_scale': 0.3,"
     "   'supersampling': {'n': 2, 'pattern': 'n-rooks', 'filter': 'gaussian', 'seed': 3,"
     "   'adaptive': 0.1}},"
     " 'stereo': {'kind': 'matrix', 'separation': 5, 'convergence': 77.5, 'swap': true,"
@@ -164,7 +166,7 @@ static bool is_in(const char *const *list, const char *key) {
 }
 
 // Collects "object.key" of everything in a saved scene. Elements of a list count as the list's
-// singular: volumes.0.name is volume.name.
+// singular: volumes.0.name is volume.name. Those of `iso` are surfaces.
 static void collect(json_t *found, const char *name, const json_t *value) {
     const char *key;
     json_t *member;
@@ -172,7 +174,7 @@ static void collect(json_t *found, const char *name, const json_t *value) {
         char path[256];
         snprintf(path, sizeof path, "%s%s%s", name, *name ? "." : "", key);
         json_object_set_new(found, path, json_true());
-        collect(found, key, member);
+        collect(found, strcmp(key, "iso") == 0 ? "surface" : key, member);
     }
     for (size_t i = 0; json_is_array(value) && i < json_array_size(value); i++) {
         char singular[64];
