@@ -718,6 +718,42 @@ PEL_API struct pel_image *pel_renderer_render(struct pel_renderer *renderer,
                                               const struct pel_render_options *options,
                                               struct pel_render_statistics *statistics);
 
+// A stretch of a ray with a constant set of volumes, at least one.
+struct pel_probe_span {
+    double from_mm, to_mm; // from the ray's origin: the first sample, and a step behind the last
+    uint32_t instances;    // bit k: instance k of the scene is there
+};
+
+// A sample of one volume. Between those listed, the others were skipped.
+struct pel_probe_sample {
+    int instance, number; // of the sample along the ray, 0 the first one
+    double distance_mm;   // from the ray's origin
+    double position[3];   // in the world
+    double value;         // in the file's own unit; NaN where absent
+    double opacity;       // that one step of this volume has here; 0: nothing to be seen
+    double rgb[3];        // straight, shaded; 0 where nothing is to be seen
+    double accumulated;   // opacity that the ray had gathered before it
+};
+
+#define PEL_PROBE_SAMPLE_MAX 65536
+
+// What the ray through one pixel's centre meets.
+struct pel_probe {
+    double origin[3], direction[3]; // in the world; the direction has length 1
+    int span_count, sample_count;
+    struct pel_probe_span *spans;     // owned
+    struct pel_probe_sample *samples; // owned; PEL_PROBE_SAMPLE_MAX at most
+    bool cut;                         // there were more samples than that
+    double rgba[4];                   // premultiplied, background included
+};
+
+// Follows the ray through the centre of pixel (x, y), counted from the top left, as a picture does,
+// and tells what it met. Supersampling, stereo and debug views are not looked at. Fails as
+// pel_renderer_render does, and (ARGUMENT) for a pixel outside the picture.
+PEL_API bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *scene, int x,
+                                int y, struct pel_probe *probe);
+PEL_API void pel_probe_finish(struct pel_probe *probe);
+
 // Renders the pictures of both eyes, each of the scene's size; the second one uploads nothing but
 // its camera. A scene without stereo gives the same picture twice. The caller owns both; on failure
 // there is neither.

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cli/options.h"
+#include "cli/probe.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/report.h"
@@ -119,6 +120,11 @@ static int render(struct run *run, const struct render_options *options) {
     run->load_ms = report_clock_ms() - begin_ms;
     if (!run->scene)
         return cli_fail_library();
+    if (options->probe) {
+        run->renderer = pel_renderer_create(&options->renderer);
+        return run->renderer ? probe_print(run->renderer, run->scene, options->pixel, options->json)
+                             : cli_fail_library();
+    }
     int status = choose_pictures(run, options);
     if (status)
         return status;
@@ -250,6 +256,8 @@ int command_render(int argc, char **argv) {
         goto done;
     cli_show_warnings(!options.quiet);
     status = render(&run, &options);
+    if (options.probe)
+        goto done;
     if (!status)
         status = save(&run);
     run.total_ms = report_clock_ms() - begin_ms;
