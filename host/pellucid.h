@@ -462,6 +462,13 @@ enum pel_skip {
     PEL_SKIP_GRID,     // empty cells of 4^3 voxels are left one by one
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
     PEL_SKIP_OCTREE,   // empty nodes of an octree over the same cells are left one by one
+    PEL_SKIP_BVH,      // from cluster to cluster of bricks, by a bounding volume hierarchy
+};
+
+// The cubes of voxels in which PEL_SKIP_BVH looks for what is visible (Ganter & Manzke 2019).
+struct pel_brick_settings {
+    int size;   // voxels along a side: 8, 16, 32, 64 or 128; 0 = 16
+    bool apart; // each active brick is a cluster of its own
 };
 
 // Where the n x n rays of a pixel go through it. See docs/picture.md for the sources.
@@ -515,6 +522,7 @@ struct pel_render_settings {
     double termination;    // a ray ends once its opacity exceeds this; 1 = never
     enum pel_sample_origin origin;
     enum pel_skip skip; //
+    struct pel_brick_settings bricks;
     struct pel_supersampling supersampling;
     bool jitter;          // every ray has a random phase of its own in place of `phase`
     enum pel_debug debug; //
@@ -666,6 +674,13 @@ struct pel_image {
     float *rgba; // owned; premultiplied; rows from the top
 };
 
+// Bricks, all volumes together. The times are those of the last change of what is visible.
+struct pel_brick_statistics {
+    int size;                                // voxels along a side; 0: there are none
+    uint64_t total, active, clusters;        //
+    double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
+};
+
 // The numbers of a debug view over the picture's pixels.
 struct pel_debug_range {
     double min, max, mean;
@@ -682,6 +697,8 @@ struct pel_render_statistics {
     uint64_t device_bytes;   // allocated on the device at the end of the frame
     uint64_t uploaded_bytes; // sent to the device for this frame
     enum pel_skip skip;
+    uint64_t skip_bytes; // of device_bytes, those for skipping
+    struct pel_brick_statistics bricks;
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
     struct pel_debug_range debug; // of the scene's debug view, zeros without one
     // Of two eyes; all of the above is then their sum.

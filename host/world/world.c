@@ -102,6 +102,7 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         world->instances[world->bytes.part_count] = (int)(instance - scene->instances);
         struct part *part = &world->bytes.parts[world->bytes.part_count++];
         *part = *pattern;
+        part->number = world->bytes.part_count - 1;
         for (int i = 0; i < 3; i++)
             part->voxel_from_world[i] = to_float4(voxel_from_world.m[i], voxel_from_world.m[i][3]);
         double low[3], high[3], shift[3] = {1, 1, slab->border[0]}, origin[3];
@@ -314,6 +315,14 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     if (!good)
         pel_world_finish(world);
     return good;
+}
+
+void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {
+    const struct part *parts = world->bytes.parts;
+    size_t end = p + 1 < world->bytes.part_count ? parts[p + 1].cells : world->cell_count;
+    cells[0] = (size_t)parts[p].cell_row;
+    cells[1] = (size_t)(parts[p].cell_slice / parts[p].cell_row);
+    cells[2] = (end - parts[p].cells) / (size_t)parts[p].cell_slice;
 }
 
 double pel_world_value(const struct pel_scene *scene, int instance, enum pel_reader reader,
