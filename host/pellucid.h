@@ -357,7 +357,14 @@ PEL_API bool pel_transform_save(const struct pel_matrix *world_from_world, const
 // interpolation there, or at the centres as VTK and OpenVKL have it.
 enum pel_extent { PEL_EXTENT_CELL, PEL_EXTENT_POINT };
 
-enum pel_filter { PEL_FILTER_LINEAR, PEL_FILTER_NEAREST };
+// How values between voxels come about. The cubic ones take the 4^3 voxels around: the B-spline
+// smooths, Catmull and Rom's spline goes through the voxels' values and may overshoot beyond them.
+enum pel_filter {
+    PEL_FILTER_LINEAR,
+    PEL_FILTER_NEAREST,
+    PEL_FILTER_CUBIC_B_SPLINE,
+    PEL_FILTER_CATMULL_ROM,
+};
 
 // How overlapping volumes share one sample. docs/picture.md has the formulae.
 enum pel_mixing {
@@ -459,6 +466,13 @@ enum pel_skip {
     PEL_SKIP_GRID,     // empty cells of 4^3 voxels are left one by one
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
     PEL_SKIP_OCTREE,   // empty nodes of an octree over the same cells are left one by one
+    PEL_SKIP_BVH,      // from cluster to cluster of bricks, by a bounding volume hierarchy
+};
+
+// The cubes of voxels in which PEL_SKIP_BVH looks for what is visible (Ganter & Manzke 2019).
+struct pel_brick_settings {
+    int size;   // voxels along a side: 8, 16, 32, 64 or 128; 0 = 16
+    bool apart; // each active brick is a cluster of its own
 };
 
 // Where the n x n rays of a pixel go through it. See docs/picture.md for the sources.
@@ -512,6 +526,7 @@ struct pel_render_settings {
     double termination;    // a ray ends once its opacity exceeds this; 1 = never
     enum pel_sample_origin origin;
     enum pel_skip skip; //
+    struct pel_brick_settings bricks;
     struct pel_supersampling supersampling;
     bool jitter;          // every ray has a random phase of its own in place of `phase`
     enum pel_debug debug; //
@@ -654,6 +669,13 @@ struct pel_image {
     float *rgba; // owned; premultiplied; rows from the top
 };
 
+// Bricks, all volumes together. The times are those of the last change of what is visible.
+struct pel_brick_statistics {
+    int size;                                // voxels along a side; 0: there are none
+    uint64_t total, active, clusters;        //
+    double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
+};
+
 // The numbers of a debug view over the picture's pixels.
 struct pel_debug_range {
     double min, max, mean;
@@ -670,6 +692,8 @@ struct pel_render_statistics {
     uint64_t device_bytes;   // allocated on the device at the end of the frame
     uint64_t uploaded_bytes; // sent to the device for this frame
     enum pel_skip skip;
+    uint64_t skip_bytes; // of device_bytes, those for skipping
+    struct pel_brick_statistics bricks;
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
     struct pel_debug_range debug; // of the scene's debug view, zeros without one
     // Of two eyes; all of the above is then their sum.

@@ -26,6 +26,28 @@ static struct cell_dims cell_dims(__constant struct part *part, uint count) {
     return dims;
 }
 
+// The range of the values that samples in cell i may have. A cubic filter reads a voxel more on
+// each side, so its cells have a share in their neighbours; and Catmull & Rom's weights, whose
+// absolute values add up to at most 5/4 along an axis, lead out of the range of the voxels by at
+// most ((5/4)^3 - 1) / 2 of it on either side.
+static float2 reachable(__constant struct part *part, __global const float2 *ranges,
+                        struct cell_dims dims, int i) {
+    if (!(part->filter & FILTERS_CUBIC))
+        return ranges[i];
+    const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
+    float2 range = (float2)(INFINITY, -INFINITY);
+    for (int n = 0; n < 27; n++) {
+        const int nx = x + n % 3 - 1, ny = y + n / 3 % 3 - 1, nz = z + n / 9 - 1;
+        if (nx < 0 || ny < 0 || nz < 0 || nx >= dims.x || ny >= dims.y || nz >= dims.z)
+            continue;
+        const float2 near = ranges[nz * part->cell_slice + ny * part->cell_row + nx];
+        range = (float2)(fmin(range.x, near.x), fmax(range.y, near.y));
+    }
+    const float beyond =
+        part->filter == FILTERS_CATMULL_ROM ? (range.y - range.x) * (61.0f / 128.0f) : 0.0f;
+    return range.x > range.y ? range : (float2)(range.x - beyond, range.y + beyond);
+}
+
 // Whether a surface of the part may lie in a cell with a range of values.
 static bool has_surface(__constant struct part *part, float2 range) {
     __constant const float *values = (__constant const float *)&part->surface_values;
@@ -114,6 +136,23 @@ static uchar name_node(__constant struct part *part, __global const uchar *cells
     return (uchar)level;
 }
 
+// 1 when brick i, of 2^bits cells along a side, has a cell that is not empty.
+static uchar find_brick(__constant struct part *part, __global const uchar *cells,
+                        struct cell_dims dims, int i, int bits) {
+    const int size = 1 << bits;
+    const int columns = (dims.x + size - 1) >> bits, rows = (dims.y + size - 1) >> bits;
+    const int left = i % columns << bits, top = i / columns % rows << bits,
+              front = i / columns / rows << bits;
+    const int right = min(left + size, dims.x), bottom = min(top + size, dims.y),
+              back = min(front + size, dims.z);
+    for (int z = front; z < back; z++)
+        for (int y = top; y < bottom; y++)
+            for (int x = left; x < right; x++)
+                if (!cells[z * part->cell_slice + y * part->cell_row + x])
+                    return 1;
+    return 0;
+}
+
 // One pass over the `count` cells of a part, from `in` to `out`, in which empty cells hold `empty`
 // at first. `linear` tells that the kernel interpolates between table entries. One kernel for all
 // passes, because each one more costs a cold start an eighth of a second.
@@ -129,11 +168,14 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     in += part->cells;
     out += part->cells;
     if (pass == PASS_OCCUPY)
-        out[i] = occupied(part, ranges[part->ranges + i], visible + part->visible, linear)
+        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, (int)i),
+                          visible + part->visible, linear)
                      ? 0
                      : (uchar)empty;
     else if (pass == PASS_NAME)
         out[i] = name_node(part, in, dims, (int)i);
+    else if (pass > PASS_BRICK)
+        out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
     else if (pass > PASS_MERGE)
         merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
     else

@@ -8,15 +8,14 @@
 #include "shared/probe.h"
 #include "traverse/cursor.cl"
 
-#ifndef SKIP
-#define SKIP SKIP_NONE // how empty space is skipped
-#endif
 #if SKIP == SKIP_NONE
 #include "traverse/none.cl"
 #else
 #include "occupancy.cl"
 #if SKIP == SKIP_OCTREE
 #include "traverse/octree.cl"
+#elif SKIP == SKIP_BVH
+#include "traverse/bvh.cl"
 #else
 #include "traverse/grid.cl"
 #endif

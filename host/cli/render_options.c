@@ -78,7 +78,8 @@ static const struct argp_option argp_options[] = {
     {0, 0, NULL, 0, "The volumes, all of them:", 3},
     {"transfer", KEY_TRANSFER, "PRESET|FILE", 0, "Transfer function", 0},
     {"density", KEY_DENSITY, "X", 0, "Multiplies the extinction", 0},
-    {"filter", KEY_FILTER, "linear|nearest", 0, "Interpolation between voxels", 0},
+    {"filter", KEY_FILTER, "linear|nearest|cubic-b-spline|catmull-rom", 0,
+     "Interpolation between voxels; the cubic ones are smoother and slower", 0},
     {"shading", KEY_SHADING, "on|off|KEY=VALUE,...", OPTION_ARG_OPTIONAL,
      "Light them by the gradient of their values; or not; or with keys of the scene's shading, "
      "such "
@@ -98,7 +99,7 @@ static const struct argp_option argp_options[] = {
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
     {"termination", KEY_TERMINATION, "X", 0, "End a ray once its opacity exceeds this; 1 for never",
      0},
-    {"skip", KEY_SKIP, "auto|none|grid|distance|octree", 0,
+    {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh", 0,
      "How empty space is skipped; the picture is the same with each", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,

@@ -120,7 +120,7 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
                 pel_kernel_set_buffer(kernel, index++, light) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->sample_counts);
     index++; // the first tile is set for each batch
-    good = good && pel_kernel_set_buffer(kernel, index++, renderer->occupancy.cells);
+    good = good && pel_kernel_set_buffer(kernel, index++, pel_occupancy_map(&renderer->occupancy));
     if (variant->supersampling) {
         index++; // the ray's number is set for each pass
         good = good && pel_kernel_set_buffer(kernel, index++, renderer->resolve.refined);
@@ -269,10 +269,16 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, kernel, statistics->skip) ||
+                              &renderer->residency, kernel, statistics->skip,
+                              &scene->render.bricks) ||
         !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);
+    if (statistics->skip != PEL_SKIP_NONE) {
+        statistics->skip_bytes = pel_occupancy_bytes(&renderer->occupancy) +
+                                 pel_buffer_bytes(renderer->residency.ranges);
+        statistics->bricks = renderer->occupancy.hierarchy.statistics;
+    }
     statistics->work_group = (int)extent->group;
     return kernel;
 }

@@ -11,6 +11,8 @@ static int skip_knob(enum pel_skip skip) {
         return SKIP_GRID;
     case PEL_SKIP_OCTREE:
         return SKIP_OCTREE;
+    case PEL_SKIP_BVH:
+        return SKIP_BVH;
     case PEL_SKIP_AUTO:
     case PEL_SKIP_DISTANCE:
         break;

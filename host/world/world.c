@@ -102,6 +102,7 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         world->instances[world->bytes.part_count] = (int)(instance - scene->instances);
         struct part *part = &world->bytes.parts[world->bytes.part_count++];
         *part = *pattern;
+        part->number = world->bytes.part_count - 1;
         for (int i = 0; i < 3; i++)
             part->voxel_from_world[i] = to_float4(voxel_from_world.m[i], voxel_from_world.m[i][3]);
         double low[3], high[3], shift[3] = {1, 1, slab->border[0]}, origin[3];
@@ -246,6 +247,16 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
         (i32)settings->debug; // the numbers of shared/variant.h are in the order of the enum
 }
 
+static bool fill_filter(struct part *part, const struct pel_instance *instance) {
+    static const i32 filters[] = {FILTERS_LINEAR, FILTERS_NEAREST, FILTERS_CUBIC_B_SPLINE,
+                                  FILTERS_CATMULL_ROM};
+    if ((unsigned)instance->filter > PEL_FILTER_CATMULL_ROM)
+        return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': filter %d", instance->name,
+                        (int)instance->filter);
+    part->filter = filters[instance->filter];
+    return true;
+}
+
 // The parts an instance is cut into.
 static int count_slabs(const struct pel_layout *layout, const struct pel_instance *instance) {
     int count = 0;
@@ -262,8 +273,9 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (instance->hidden)
             continue;
         struct part pattern = {0};
+        if (!fill_filter(&pattern, instance))
+            return false;
         pattern.step_mm = (float)pel_step_of_instance(scene, instance);
-        pattern.filter = instance->filter == PEL_FILTER_NEAREST ? FILTERS_NEAREST : FILTERS_LINEAR;
         world->filters |= pattern.filter;
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;
@@ -314,6 +326,14 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     if (!good)
         pel_world_finish(world);
     return good;
+}
+
+void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {
+    const struct part *parts = world->bytes.parts;
+    size_t end = p + 1 < world->bytes.part_count ? parts[p + 1].cells : world->cell_count;
+    cells[0] = (size_t)parts[p].cell_row;
+    cells[1] = (size_t)(parts[p].cell_slice / parts[p].cell_row);
+    cells[2] = (end - parts[p].cells) / (size_t)parts[p].cell_slice;
 }
 
 double pel_world_value(const struct pel_scene *scene, int instance, enum pel_reader reader,

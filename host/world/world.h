@@ -32,9 +32,13 @@ struct pel_world {
 // WORLD_PART_MAX.
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout);
+void pel_world_finish(struct pel_world *world);
+
+// The cells of part p along x, y and z (shared/grid.h).
+void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]);
+
 // The value, in the file's own unit, of what a reader gave for an instance's volume.
 double pel_world_value(const struct pel_scene *scene, int instance, enum pel_reader reader,
                        double raw);
-void pel_world_finish(struct pel_world *world);
 
 #endif

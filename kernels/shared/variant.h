@@ -21,12 +21,16 @@
 // FILTERS: which filters occur, one bit each.
 #define FILTERS_LINEAR 1
 #define FILTERS_NEAREST 2
+#define FILTERS_CUBIC_B_SPLINE 4
+#define FILTERS_CATMULL_ROM 8
+#define FILTERS_CUBIC (FILTERS_CUBIC_B_SPLINE | FILTERS_CATMULL_ROM)
 
 // SKIP: how empty space is skipped.
 #define SKIP_NONE 0     // not at all
 #define SKIP_GRID 1     // cell by cell
 #define SKIP_DISTANCE 2 // by the distance to the nearest cell with something in it
 #define SKIP_OCTREE 3   // by the nodes of an octree
+#define SKIP_BVH 4      // by a hierarchy over clusters of bricks
 
 // Of a part: how light is gathered in it (docs/picture.md, "Optical models").
 #define MODEL_ABSORPTION 0
