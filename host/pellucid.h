@@ -245,6 +245,9 @@ PEL_API struct pel_transfer *pel_transfer_preset(const char *name);
 
 // Reads a transfer function: Pellucid's own JSON, or ParaView's colour-map JSON.
 PEL_API struct pel_transfer *pel_transfer_load(const char *path);
+
+// Writes one as Pellucid's own JSON, through a temporary that is renamed at the end.
+PEL_API bool pel_transfer_save(const struct pel_transfer *transfer, const char *path);
 PEL_API struct pel_transfer *pel_transfer_copy(const struct pel_transfer *transfer);
 PEL_API void pel_transfer_destroy(struct pel_transfer *transfer);
 
@@ -610,6 +613,15 @@ PEL_API bool pel_scene_move(struct pel_scene *scene, int instance, int to);
 // transforms stay. Fails as pel_volume_load does, and ARGUMENT for a volume without a source; the
 // scene is then as before.
 PEL_API bool pel_scene_reload(struct pel_scene *scene, int volume);
+
+// The scene as JSON: what pel_scene_save writes to `path`, whose folder the files in it are
+// relative to. NULL gives it compact, with absolute paths, as for the text in a picture. Memory to
+// free(), or NULL on failure (MEMORY; ARGUMENT when a volume came from no file).
+PEL_API char *pel_scene_text(const struct pel_scene *scene, const char *path);
+
+// Writes a scene file, through a temporary that is renamed at the end. Loading it gives a scene
+// that renders to the same picture.
+PEL_API bool pel_scene_save(const struct pel_scene *scene, const char *path);
 
 // The world bounds of one instance's box, and of all visible instances (false if there is none).
 PEL_API void pel_instance_bounds(const struct pel_scene *scene, int instance,
