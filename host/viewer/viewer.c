@@ -149,8 +149,9 @@ static double wait_seconds(const struct pel_state *state) {
 
 static bool is_over(const struct pel_state *state) {
     const struct pel_viewer_options *options = state->options;
+    // The last picture is complete, even if the hand was quicker.
     if (state->quit)
-        return true;
+        return !options->screenshot || is_resting(state);
     if (state->latency)
         return pel_latency_is_over(state->latency);
     if (options->frames > 0 && state->shown_count >= options->frames)
