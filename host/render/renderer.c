@@ -22,6 +22,7 @@
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
+#include "world/model.h"
 
 // A batch of tiles should take about this long unless the caller says otherwise.
 static const double batch_default_ms = 150;
@@ -385,6 +386,8 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout.reader;
     statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
+    if (pel_model_skips_nothing(scene))
+        statistics->skip = PEL_SKIP_NONE;
     statistics->prepare_ms = lap_ms(&mark);
 
     struct pel_image *image;

@@ -263,6 +263,8 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         struct part pattern = {0};
         pattern.step_mm = (float)pel_step_of_instance(scene, instance);
         pattern.filter = instance->filter == PEL_FILTER_NEAREST ? FILTERS_NEAREST : FILTERS_LINEAR;
+        if (world->models & MODELS_EMISSION)
+            pattern.filter = FILTERS_NEAREST;
         world->filters |= pattern.filter;
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;
