@@ -16,6 +16,9 @@
 #if MODELS & MODELS_EMISSION
 #include "exact.cl"
 #endif
+#if PROBE
+#include "probe_log.cl"
+#endif
 #if SUPERSAMPLING
 #include "resolve.cl"
 #endif
@@ -81,6 +84,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             const struct entry entry = find_entry(part, sample.raw, &present);
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
+#if PROBE
+            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, light.a);
+#endif
             if (!any_lane(visible)) {
                 cursor->next = cursor_leap(part, cells, cursor, i + 1);
                 continue;
@@ -101,6 +107,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                 shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
                       SAMPLE_NUMBER(crossing, t), x, y, z, CHOOSE(zero, sample.raw, visible), &r, &g,
                       &b);
+#endif
+#if PROBE
+            log_colour(crossing, r, g, b);
 #endif
             mix_add(&mixture, layer, r, g, b, CHOOSE(zero, strength, visible));
         }
@@ -166,3 +175,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
 #endif
     store_pixels(world, picture, left, top, &ray, &light);
 }
+
+#if PROBE
+#include "probe.cl"
+#endif

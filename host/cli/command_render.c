@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cli/options.h"
+#include "cli/probe.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/report.h"
@@ -119,6 +120,11 @@ static int render(struct run *run, const struct render_options *options) {
     run->load_ms = report_clock_ms() - begin_ms;
     if (!run->scene)
         return cli_fail_library();
+    if (options->probe) {
+        run->renderer = pel_renderer_create(&options->renderer);
+        return run->renderer ? probe_print(run->renderer, run->scene, options->pixel, options->json)
+                             : cli_fail_library();
+    }
     int status = choose_pictures(run, options);
     if (status)
         return status;
@@ -198,6 +204,18 @@ static json_t *describe_stereo(const struct run *run) {
     return object;
 }
 
+static json_t *describe_bricks(const struct pel_brick_statistics *bricks) {
+    json_t *object = json_object();
+    json_object_set_new(object, "size", json_integer(bricks->size));
+    json_object_set_new(object, "total", json_integer((json_int_t)bricks->total));
+    json_object_set_new(object, "active", json_integer((json_int_t)bricks->active));
+    json_object_set_new(object, "clusters", json_integer((json_int_t)bricks->clusters));
+    json_object_set_new(object, "activity_ms", report_number(bricks->activity_ms));
+    json_object_set_new(object, "cluster_ms", report_number(bricks->cluster_ms));
+    json_object_set_new(object, "tree_ms", report_number(bricks->tree_ms));
+    return object;
+}
+
 static int print_json(const struct run *run) {
     const struct pel_render_statistics *statistics = &run->statistics;
     json_t *object = json_object();
@@ -221,6 +239,10 @@ static int print_json(const struct run *run) {
         json_object_set_new(object, "debug",
                             json_pack("{s:f, s:f, s:f}", "min", statistics->debug.min, "max",
                                       statistics->debug.max, "mean", statistics->debug.mean));
+    json_object_set_new(object, "skip", json_string(report_skip(statistics->skip)));
+    json_object_set_new(object, "skip_bytes", json_integer((json_int_t)statistics->skip_bytes));
+    if (statistics->bricks.size > 0)
+        json_object_set_new(object, "bricks", describe_bricks(&statistics->bricks));
     const struct {
         const char *name;
         double ms;
@@ -229,6 +251,7 @@ static int print_json(const struct run *run) {
         {"prepare_ms", statistics->prepare_ms},
         {"build_ms", statistics->build_ms},
         {"upload_ms", statistics->upload_ms},
+        {"skip_ms", statistics->skip_ms},
         {"render_ms", statistics->render_ms},
         {"download_ms", statistics->download_ms},
         {"save_ms", run->save_ms},
@@ -250,6 +273,8 @@ int command_render(int argc, char **argv) {
         goto done;
     cli_show_warnings(!options.quiet);
     status = render(&run, &options);
+    if (options.probe)
+        goto done;
     if (!status)
         status = save(&run);
     run.total_ms = report_clock_ms() - begin_ms;
