@@ -12,6 +12,8 @@ struct render_options {
     const char *output; // NULL: not said
     struct overrides overrides;
     struct pel_renderer_options renderer;
+    const char *frames; // which ones; NULL: not said
+    int frame;          // -1: not said
     bool json, quiet;
 };
 

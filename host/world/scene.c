@@ -7,6 +7,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "camera/camera.h"
+#include "world/scene_source.h"
 
 struct pel_scene *pel_scene_create(void) {
     struct pel_scene *scene = pel_allocate(1, sizeof *scene);
@@ -41,6 +42,7 @@ void pel_scene_destroy(struct pel_scene *scene) {
     for (int i = 0; i < scene->instance_count; i++)
         pel_transfer_destroy(scene->instances[i].transfer);
     free(scene->text);
+    pel_scene_source_destroy(scene->source);
     free(scene);
 }
 

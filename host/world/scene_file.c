@@ -10,15 +10,16 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "world/animation.h"
 #include "world/scene.h"
-#include "world/scene_override.h"
-#include "world/scene_plan.h"
+#include "world/scene_source.h"
 
 // Scenes are written by people.
 enum { SCENE_BYTES_MAX = 16 << 20 };
 
-static const char *const scene_keys[] = {"$schema", "comment", "camera", "background", "lights",
-                                         "volumes", "render",  "stereo", "output",     NULL};
+static const char *const scene_keys[] = {"$schema",   "comment", "camera", "background",
+                                         "lights",    "volumes", "render", "stereo",
+                                         "animation", "output",  NULL};
 
 static bool read_document(struct pel_scene *scene, struct pel_scene_plan *plan) {
     const struct pel_scene_node *node = &plan->scene;
@@ -35,25 +36,50 @@ static bool write_text(struct pel_scene *scene, const json_t *root) {
     return scene->text || pel_fail(PEL_ERROR_MEMORY, "cannot allocate the scene's text");
 }
 
-// Makes a scene of parsed JSON; changes `root` by the overrides.
-static struct pel_scene *build(const struct pel_scene_document *document, json_t *root) {
-    for (int i = 0; i < document->override_count; i++)
-        if (!pel_scene_override(root, document->overrides[i]))
-            return NULL;
-    struct pel_scene_plan *plan = pel_allocate(1, sizeof *plan);
-    struct pel_scene *scene = plan ? pel_scene_create() : NULL;
-    if (scene) {
-        plan->scene = (struct pel_scene_node){.document = document, .value = root};
-        if (!read_document(scene, plan) || !pel_scene_load_volumes(scene, plan) ||
-            !pel_scene_place_camera(scene, &plan->camera) || !write_text(scene, root)) {
-            pel_scene_destroy(scene);
-            scene = NULL;
-        }
-    }
+// Reads the scene of `source` into `scene`, at the frame its JSON says.
+static bool read_frame(struct pel_scene *scene, const struct pel_scene_source *source,
+                       struct pel_scene_plan *plan, const struct pel_scene_stock *stock) {
+    struct pel_animation animation = {0};
+    const struct pel_scene_node written = {.document = &source->document, .value = source->root};
+    json_t *root = json_deep_copy(source->root);
+    plan->scene = (struct pel_scene_node){.document = &source->document, .value = root};
+    bool good = root || pel_fail(PEL_ERROR_MEMORY, "cannot allocate a scene");
+    good = good && pel_animation_read(&animation, &written) &&
+           pel_animation_apply(&animation, root) && read_document(scene, plan) &&
+           pel_animation_read_transfers(&animation, plan, scene->instance_count) &&
+           pel_scene_load_volumes(scene, plan, stock) &&
+           pel_animation_place_camera(&animation, scene, plan) && write_text(scene, source->root);
+    scene->timeline = animation.timeline;
+    pel_animation_finish(&animation);
+    json_decref(root);
+    return good;
+}
+
+static struct pel_scene_plan *create_plan(void) {
+    return pel_allocate(1, sizeof(struct pel_scene_plan));
+}
+
+static void destroy_plan(struct pel_scene_plan *plan) {
     if (plan)
         pel_scene_plan_finish(plan);
     free(plan);
-    return scene;
+}
+
+// Makes a scene of parsed JSON.
+static struct pel_scene *build(const struct pel_scene_document *document, const json_t *root) {
+    const struct pel_scene_stock nothing = {NULL, NULL};
+    struct pel_scene_source *source = pel_scene_source_create(document, root);
+    struct pel_scene *scene = source ? pel_scene_create() : NULL;
+    if (!scene) {
+        pel_scene_source_destroy(source);
+        return NULL;
+    }
+    scene->source = source;
+    source->plan = create_plan();
+    if (source->plan && read_frame(scene, source, source->plan, &nothing))
+        return scene;
+    pel_scene_destroy(scene);
+    return NULL;
 }
 
 static struct pel_scene *load_json(const char *path, const char *const *overrides,
@@ -129,4 +155,52 @@ struct pel_scene *pel_scene_from_files(const char *const *paths, int path_count,
         scene = build(&document, root);
     json_decref(root);
     return scene;
+}
+
+// Volumes that both scenes have belong to the one that goes on.
+static void give_up_shared(struct pel_scene *loser, const struct pel_scene *owner) {
+    for (int i = 0; i < loser->volume_count; i++)
+        for (int k = 0; k < owner->volume_count; k++)
+            if (loser->volumes[i] == owner->volumes[k]) {
+                loser->volumes[i] = NULL;
+                break;
+            }
+}
+
+bool pel_scene_set_frame(struct pel_scene *scene, double frame) {
+    int count = scene->timeline.frame_count;
+    if (!scene->source || count == 0)
+        return pel_fail(PEL_ERROR_ARGUMENT, "the scene has no animation");
+    if (!(frame >= 0 && frame <= count))
+        return pel_fail(PEL_ERROR_ARGUMENT, "frame %g, outside 0..%d", frame, count);
+    struct pel_scene_source *source = scene->source;
+    struct pel_scene_stock stock = {scene, source->plan};
+    struct pel_scene_plan *plan = create_plan();
+    struct pel_scene *next = plan ? pel_scene_create() : NULL;
+    if (!next) {
+        destroy_plan(plan);
+        return false;
+    }
+    json_t *animation = json_object_get(source->root, "animation");
+    double before = scene->timeline.frame;
+    json_object_set_new(animation, "frame", json_real(frame));
+    bool good = read_frame(next, source, plan, &stock);
+    if (good) {
+        // The caller's scene becomes the next one, and what was it goes.
+        give_up_shared(scene, next);
+        next->source = source;
+        struct pel_scene old = *scene;
+        *scene = *next;
+        *next = old;
+        next->source = NULL;
+        destroy_plan(source->plan);
+        source->plan = plan;
+    } else {
+        give_up_shared(next, scene);
+        json_object_set_new(animation, "frame", json_real(before));
+        destroy_plan(plan);
+        pel_fail_in("frame %g", frame);
+    }
+    pel_scene_destroy(next);
+    return good;
 }

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
+#include "transfer/blend.h"
 
 static bool same_text(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
@@ -56,8 +57,23 @@ static void replace_spacing(struct pel_volume *volume, const double spacing_mm[3
             volume->world_from_voxel.m[row][axis] *= spacing_mm[axis] / old_mm[axis];
 }
 
+// The volume of the stock that is wanted, taken over with its statistics; false if there is none.
+static bool take_from_stock(struct pel_scene *scene, const struct pel_volume_plan *wanted,
+                            const struct pel_scene_stock *stock) {
+    for (int i = 0; stock->scene && i < stock->scene->instance_count; i++) {
+        if (!same_volume(wanted, &stock->plan->volume[i]))
+            continue;
+        int index = stock->scene->instances[i].volume;
+        scene->volumes[scene->volume_count] = stock->scene->volumes[index];
+        scene->statistics[scene->volume_count++] = stock->scene->statistics[index];
+        return true;
+    }
+    return false;
+}
+
 // Loads the volume of one instance, or finds it among those already there.
-static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, int instance) {
+static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, int instance,
+                        const struct pel_scene_stock *stock) {
     struct pel_volume_plan *wanted = &plan->volume[instance];
     for (int i = 0; i < instance; i++) {
         if (same_volume(wanted, &plan->volume[i])) {
@@ -65,22 +81,40 @@ static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, in
             return true;
         }
     }
+    int index = scene->volume_count;
+    scene->instances[instance].volume = index;
+    if (take_from_stock(scene, wanted, stock))
+        return true;
     struct pel_volume *volume = wanted->file ? pel_volume_load(wanted->file, &wanted->load)
                                              : pel_volume_generate(wanted->kind, &wanted->generate);
     if (!volume)
         return pel_node_fail_in(&wanted->node);
     if (wanted->spacing[0] > 0)
         replace_spacing(volume, wanted->spacing);
-    int index = scene->volume_count++;
     scene->volumes[index] = volume;
+    scene->volume_count++;
     pel_volume_measure(volume, &scene->statistics[index]);
-    scene->instances[instance].volume = index;
+    return true;
+}
+
+// Moves the instance's transfer function on its way to another one.
+static bool blend_transfer(struct pel_instance *instance, struct pel_volume_plan *plan,
+                           const struct pel_statistics *statistics) {
+    if (!plan->towards)
+        return true;
+    pel_transfer_resolve(plan->towards, statistics);
+    struct pel_transfer *mixed =
+        pel_transfer_blend(instance->transfer, plan->towards, plan->towards_share);
+    if (!mixed)
+        return false;
+    pel_transfer_destroy(instance->transfer);
+    instance->transfer = mixed;
     return true;
 }
 
 static bool settle_transfer(struct pel_scene *scene, struct pel_scene_plan *plan, int index) {
     struct pel_instance *instance = &scene->instances[index];
-    const struct pel_volume_plan *wanted = &plan->volume[index];
+    struct pel_volume_plan *wanted = &plan->volume[index];
     const struct pel_volume *volume = scene->volumes[instance->volume];
     const struct pel_statistics *statistics = &scene->statistics[instance->volume];
     if (!instance->transfer) {
@@ -89,6 +123,8 @@ static bool settle_transfer(struct pel_scene *scene, struct pel_scene_plan *plan
             return pel_node_fail_in(&wanted->node);
     }
     pel_transfer_resolve(instance->transfer, statistics);
+    if (!blend_transfer(instance, wanted, statistics))
+        return pel_node_fail_in(&wanted->node);
     if (wanted->opacity_unit_mm > 0)
         instance->transfer->opacity_unit_mm = wanted->opacity_unit_mm;
     if (volume->labels && !wanted->filter_given)
@@ -152,14 +188,16 @@ static void warn_unseen(const struct pel_scene *scene) {
         pel_warn("all volumes are hidden, so the picture shows the background alone");
 }
 
-bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan) {
+bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan,
+                            const struct pel_scene_stock *stock) {
     for (int i = 0; i < scene->instance_count; i++)
-        if (!load_volume(scene, plan, i))
+        if (!load_volume(scene, plan, i, stock))
             return false;
     for (int i = 0; i < scene->instance_count; i++)
         if (!settle_transfer(scene, plan, i) || !settle_pose(scene, plan, i) ||
             !check_place(scene, plan, i))
             return false;
-    warn_unseen(scene);
+    if (!stock->scene)
+        warn_unseen(scene);
     return true;
 }
