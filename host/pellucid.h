@@ -106,6 +106,7 @@ struct pel_volume {
     bool labels;             // values are labels: interpolating them makes no sense
     void *voxels;            // owned; i fastest, then j, then k; no padding. In PEL_VOXEL_F32
                              // an absent voxel (NaN or Inf in the file) is NaN
+    int shares;              // how many hold it besides the first: see pel_volume_share
 };
 
 // How to read a file. Zero-initialise for the defaults.
@@ -139,6 +140,10 @@ PEL_API struct pel_volume *pel_volume_load(const char *path,
 PEL_API struct pel_volume *pel_volume_create(const char *name, const int dims[3],
                                              enum pel_voxel_type type);
 PEL_API void pel_volume_destroy(struct pel_volume *volume);
+
+// Lets one more hold the volume, and returns it: it is freed when each has destroyed it once. A
+// volume that is shared must not be changed any more; its holders may then be different threads.
+PEL_API struct pel_volume *pel_volume_share(struct pel_volume *volume);
 
 // Bytes of one voxel (1 to 4), number of voxels, and bytes of all voxels.
 PEL_API size_t pel_voxel_bytes(enum pel_voxel_type type);
@@ -398,6 +403,8 @@ struct pel_instance {
     enum pel_filter filter;      //
     struct pel_transfer *transfer; // owned, resolved
     struct pel_material material;  //
+    double step;                   // of its samples, in its own finest voxels; 0 = the scene's
+    double step_mm;                // the same in millimetres, instead of `step`; 0 = as `step` says
 };
 
 #define PEL_LIGHT_MAX 8
@@ -422,6 +429,7 @@ enum pel_skip {
     PEL_SKIP_NONE,     // every sample is taken
     PEL_SKIP_GRID,     // empty cells of 4^3 voxels are left one by one
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
+    PEL_SKIP_OCTREE,   // empty nodes of an octree over the same cells are left one by one
 };
 
 // Where the n x n rays of a pixel go through it. See docs/picture.md for the sources.
@@ -451,16 +459,30 @@ struct pel_supersampling {
                      // any channel, 0..1, get n x n rays, and the others one; 0 = all pixels do
 };
 
+// What a picture shows of each pixel's ray instead of its light: a number, as a heat map. One ray
+// goes through each pixel's centre, whatever the supersampling.
+enum pel_debug {
+    PEL_DEBUG_NONE,
+    PEL_DEBUG_SAMPLES,    // samples taken
+    PEL_DEBUG_SPANS,      // spans of the ray with a constant set of volumes
+    PEL_DEBUG_VOLUMES,    // volumes crossed in which something may be visible: depth complexity
+    PEL_DEBUG_WORK_GROUP, // which work-group made the pixel, a colour each
+    PEL_DEBUG_WORK_ITEM,  // which work-item of its group
+    PEL_DEBUG_TIME,       // milliseconds that the pixel's tile took, each launched on its own
+};
+
 struct pel_render_settings {
     int width, height;      // pixels
     enum pel_mixing mixing; //
     double step;            // in voxels of the finest visible volume; > 0
+    double step_mm;         // the same in millimetres, instead of `step`; 0 = as `step` says
     double phase;           // of the first sample, in steps; 0..1
     double termination;     // a ray ends once its opacity exceeds this; 1 = never
     enum pel_sample_origin origin;
     enum pel_skip skip; //
     struct pel_supersampling supersampling;
-    bool jitter; // every ray has a random phase of its own in place of `phase`
+    bool jitter;          // every ray has a random phase of its own in place of `phase`
+    enum pel_debug debug; //
 };
 
 struct pel_output_settings {
@@ -479,13 +501,23 @@ struct pel_timeline {
 // What a scene was made of, for pel_scene_set_frame.
 struct pel_scene_source;
 
+// Where a volume's voxels came from, so that a scene file can say it. All-zero: from the program.
+struct pel_volume_source {
+    char *file; // owned by the scene; as pel_volume_load takes it
+    struct pel_load_options load;
+    const char *kind; // one of pel_generator_names, when there is no file
+    struct pel_generate_options generate;
+    double spacing[3]; // replaces the file's; 0 = does not
+};
+
 // A scene in memory. Instances are drawn in any order but listed in the user's; `over` follows it.
 struct pel_scene {
     struct pel_camera camera;
     double background[4];                             // straight RGBA, 0..1
     int volume_count;                                 // distinct volumes in memory
-    struct pel_volume *volumes[PEL_VOLUME_MAX];       // owned
+    struct pel_volume *volumes[PEL_VOLUME_MAX];       // owned, perhaps shared
     struct pel_statistics statistics[PEL_VOLUME_MAX]; // of each volume
+    struct pel_volume_source sources[PEL_VOLUME_MAX]; // of each volume
     int instance_count;
     struct pel_instance instances[PEL_VOLUME_MAX];
     int light_count; // 0: one white headlight
@@ -495,7 +527,7 @@ struct pel_scene {
     struct pel_output_settings output;
     struct pel_timeline timeline;
     char *text; // owned; the scene as JSON after all overrides, as it goes into the picture
-    struct pel_scene_source *source; // owned; NULL of a scene that was not loaded
+    struct pel_scene_source *source; // owned, perhaps shared; NULL unless it was loaded
 };
 
 // Reads a scene file, or one or more volume files in place of a scene (then: a percentile window,
@@ -515,6 +547,41 @@ PEL_API void pel_scene_destroy(struct pel_scene *scene);
 // (ARGUMENT) when there is no animation or no such frame, and like pel_scene_load when a value
 // cannot be; the scene then stays as it was.
 PEL_API bool pel_scene_set_frame(struct pel_scene *scene, double frame);
+
+// An empty scene with every default, to be filled by a program. NULL: MEMORY.
+PEL_API struct pel_scene *pel_scene_create(void);
+
+// A scene that can be changed without changing this one. Both share their volumes, so it is cheap:
+// a viewer can keep one for each step that may be undone. NULL: MEMORY.
+PEL_API struct pel_scene *pel_scene_copy(const struct pel_scene *scene);
+
+// Puts a volume at the end of the list, with an automatic transfer function, as for files given in
+// place of a scene. The scene shares the volume, so the caller still destroys it. `source`, which
+// may be NULL, is copied; without one the scene cannot be saved. The first volume of a scene whose
+// camera was never set brings an oblique view of it. Returns the new instance's index, or -1 when
+// there are PEL_VOLUME_MAX already (ARGUMENT) or memory ran out; the scene is then as before.
+PEL_API int pel_scene_add_volume(struct pel_scene *scene, struct pel_volume *volume,
+                                 const struct pel_volume_source *source);
+
+// Loads a file and adds it. Returns the new instance's index, or -1 with the scene as before.
+// `options` may be NULL.
+PEL_API int pel_scene_add_file(struct pel_scene *scene, const char *path,
+                               const struct pel_load_options *options);
+
+// Adds the copy of an instance behind the others; both show one volume. Returns its index or -1.
+PEL_API int pel_scene_add_copy(struct pel_scene *scene, int instance);
+
+// Takes one instance out of the list, and its volume out of memory when nothing else shows it. The
+// last one cannot be removed (ARGUMENT): a scene without volumes is none.
+PEL_API bool pel_scene_remove(struct pel_scene *scene, int instance);
+
+// Takes an instance out of its place in the list and puts it at `to`; those between move up.
+PEL_API bool pel_scene_move(struct pel_scene *scene, int instance, int to);
+
+// Reads the file of a volume again, which may have changed on disk. Transfer functions and
+// transforms stay. Fails as pel_volume_load does, and ARGUMENT for a volume without a source; the
+// scene is then as before.
+PEL_API bool pel_scene_reload(struct pel_scene *scene, int volume);
 
 // The world bounds of one instance's box, and of all visible instances (false if there is none).
 PEL_API void pel_instance_bounds(const struct pel_scene *scene, int instance,
@@ -574,6 +641,11 @@ struct pel_image {
     float *rgba; // owned; premultiplied; rows from the top
 };
 
+// The numbers of a debug view over the picture's pixels.
+struct pel_debug_range {
+    double min, max, mean;
+};
+
 // What one frame took.
 struct pel_render_statistics {
     char device[128], driver[128];
@@ -586,6 +658,7 @@ struct pel_render_statistics {
     uint64_t uploaded_bytes; // sent to the device for this frame
     enum pel_skip skip;
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
+    struct pel_debug_range debug; // of the scene's debug view, zeros without one
     // Of two eyes; all of the above is then their sum.
     struct {
         double separation_mm, convergence_mm; // as they were used
@@ -602,6 +675,7 @@ typedef bool (*pel_progress_callback)(double finished, void *user);
 struct pel_render_options {
     pel_progress_callback progress;
     void *user;
+    float *numbers; // receives a debug view's number of each pixel, rows from the top; may be NULL
 };
 
 // Opens a device. Fails (DEVICE, ARGUMENT) with a sentence that lists what was found.

@@ -52,8 +52,8 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, table_last);
     *out++ = OFFSET(struct part, table);
     *out++ = OFFSET(struct part, offset);
-    *out++ = OFFSET(struct part, row);
-    *out++ = OFFSET(struct part, slice);
+    *out++ = OFFSET(struct part, brick_row);
+    *out++ = OFFSET(struct part, brick_slice);
     *out++ = OFFSET(struct part, buffer);
     *out++ = OFFSET(struct part, voxels);
     *out++ = OFFSET(struct part, filter);
@@ -67,6 +67,12 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, spacing_mm);
     *out++ = OFFSET(struct part, shading);
     *out++ = OFFSET(struct part, one_sided);
+    *out++ = OFFSET(struct part, surface_values);
+    *out++ = OFFSET(struct part, surfaces);
+    *out++ = OFFSET(struct part, surface_count);
+    *out++ = OFFSET(struct part, model);
+    *out++ = OFFSET(struct part, step_mm);
+    *out++ = OFFSET(struct part, density);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);
@@ -86,6 +92,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, seed);
     *out++ = OFFSET(struct world, contrast);
     *out++ = OFFSET(struct world, lamp_count);
+    *out++ = OFFSET(struct world, debug);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
     describe_recipe(out);

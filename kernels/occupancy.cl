@@ -1,10 +1,14 @@
 // occupancy.cl - from a transfer function to the cells of a part in which something may be visible.
 //
-// The first pass compares each cell's range of values with the table: a count of visible entries up to each one answers
-// whether a range holds any with two look-ups. Three more turn that into distances, one axis at a time: the Chebyshev
-// distance separates, D(x) = min over k of max(|k|, D(x + k)).
+// The first pass compares each cell's range of values with the table: a count of visible entries up
+// to each one answers whether a range holds any with two look-ups. Three more turn that into
+// distances, one axis at a time: the Chebyshev distance separates, D(x) = min over k of max(|k|,
+// D(x + k)). For an octree the passes go up its levels instead, each over the nodes of one level,
+// and a last one brings down to every cell the largest empty node around it: a cell holds 0 where
+// something may be visible, else one more than that node's level.
 //
-// Included by render.cl, because a program of their own would cost another half second of a cold start.
+// Included by render.cl, because a program of their own would cost another half second of a cold
+// start.
 #ifndef OCCUPANCY_CL
 #define OCCUPANCY_CL
 
@@ -22,12 +26,12 @@ static struct cell_dims cell_dims(__constant struct part *part, uint count) {
     return dims;
 }
 
-// 0 for a cell in which something may be visible, else the largest distance.
-static uchar occupied(__constant struct part *part, float2 range, __global const uint *counts,
-                      bool linear) {
+// Whether something may be visible in a cell with a range of values.
+static bool occupied(__constant struct part *part, float2 range, __global const uint *counts,
+                     bool linear) {
     // A cell without any value has its ends the wrong way round.
     if (range.x > range.y)
-        return CELL_DISTANCE_MAX;
+        return false;
     const float a = range.x * part->table_scale + part->table_bias;
     const float b = range.y * part->table_scale + part->table_bias;
     // Interpolation rounds; one value everywhere does not.
@@ -37,7 +41,7 @@ static uchar occupied(__constant struct part *part, float2 range, __global const
     const bool between = linear && !part->table_nearest;
     const int first = between ? (int)low : (int)(low + 0.5f);
     const int last = between ? (int)ceil(high) : (int)(high + 0.5f);
-    return counts[last + 1] > counts[first] ? 0 : CELL_DISTANCE_MAX;
+    return counts[last + 1] > counts[first];
 }
 
 // The distance of cell i, spread along one axis (0, 1, 2).
@@ -59,22 +63,61 @@ static uchar spread(__constant struct part *part, __global const uchar *cell, st
     return (uchar)best;
 }
 
-// One pass over the `count` cells of a part, from `in` to `out`: OCCUPY, or spreading along the axis of that number.
-// `linear` tells that the kernel interpolates between table entries. One kernel for both, because each one more costs a
-// cold start an eighth of a second.
+// Work-item i joins what the eight children of node i of a level found. Nothing else writes to the
+// node's first cell, and only this reads it. What lies outside the part counts as empty.
+static void merge(__constant struct part *part, __global uchar *cells, struct cell_dims dims, int i,
+                  int level) {
+    const int size = 1 << level, half_size = size >> 1;
+    const int columns = (dims.x + size - 1) >> level, rows = (dims.y + size - 1) >> level;
+    const int x = i % columns * size, y = i / columns % rows * size, z = i / columns / rows * size;
+    if (z >= dims.z)
+        return;
+    bool empty = true;
+    for (int child = 0; child < 8; child++) {
+        const int cx = x + (child & 1 ? half_size : 0), cy = y + (child & 2 ? half_size : 0),
+                  cz = z + (child & 4 ? half_size : 0);
+        if (cx < dims.x && cy < dims.y && cz < dims.z)
+            empty = empty && cells[cz * part->cell_slice + cy * part->cell_row + cx] >= level;
+    }
+    if (empty)
+        cells[z * part->cell_slice + y * part->cell_row + x] = (uchar)(level + 1);
+}
+
+// One more than the level of the largest empty node around cell i, whose first cells know.
+static uchar name_node(__constant struct part *part, __global const uchar *cells,
+                       struct cell_dims dims, int i) {
+    const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
+    int level = 0;
+    while (cells[(z >> level << level) * part->cell_slice + (y >> level << level) * part->cell_row +
+                 (x >> level << level)] > level)
+        level++;
+    return (uchar)level;
+}
+
+// One pass over the `count` cells of a part, from `in` to `out`, in which empty cells hold `empty`
+// at first. `linear` tells that the kernel interpolates between table entries. One kernel for all
+// passes, because each one more costs a cold start an eighth of a second.
 __kernel void occupancy(__constant struct world *world, __global const float2 *ranges,
-                        __global const uint *visible, __global const uchar *in,
-                        __global uchar *out, const uint part_index, const uint count,
-                        const uint linear, const uint pass) {
+                        __global const uint *visible, __global const uchar *in, __global uchar *out,
+                        const uint part_index, const uint count, const uint linear, const uint pass,
+                        const uint empty) {
     const uint i = get_global_id(0);
     if (i >= count)
         return;
     __constant struct part *part = &world->parts[part_index];
-    const uint cell = part->cells + i;
+    const struct cell_dims dims = cell_dims(part, count);
+    in += part->cells;
+    out += part->cells;
     if (pass == PASS_OCCUPY)
-        out[cell] = occupied(part, ranges[part->ranges + i], visible + part->visible, linear);
+        out[i] = occupied(part, ranges[part->ranges + i], visible + part->visible, linear)
+                     ? 0
+                     : (uchar)empty;
+    else if (pass == PASS_NAME)
+        out[i] = name_node(part, in, dims, (int)i);
+    else if (pass > PASS_MERGE)
+        merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
     else
-        out[cell] = spread(part, in + cell, cell_dims(part, count), (int)i, pass);
+        out[i] = spread(part, in + i, dims, (int)i, pass);
 }
 
 #endif

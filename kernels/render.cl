@@ -5,28 +5,20 @@
 // into spans with a constant set of active parts; the cost of a sample follows that set. Each part has a
 // cursor; after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
+#include "mix.cl"
 #include "pixel.cl"
 #include "shade.cl"
 #include "span.cl"
+#if DEBUG
+#include "debug.cl"
+#endif
 #if SUPERSAMPLING
 #include "resolve.cl"
 #endif
 
-#ifndef MIXING
-#define MIXING MIXING_SUM // how volumes that overlap share a sample
+#ifndef DEBUG
+#define DEBUG 0 // 1: a number of each ray in place of its light
 #endif
-
-// With one part there is nothing to add up, and its table holds opacities.
-#define STRENGTH_DEPTH (MIXING == MIXING_SUM && CAPACITY > 1)
-
-// Puts a layer of straight colour and opacity a behind what has been gathered.
-INLINE void light_add(struct light *light, real r, real g, real b, real a) {
-    const real weight = (1.0f - light->a) * a;
-    light->r += weight * r;
-    light->g += weight * g;
-    light->b += weight * b;
-    light->a += weight;
-}
 
 // Follows the rays and returns the light they gather. Adds the samples taken to *samples.
 INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE const uint *table,
@@ -50,9 +42,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             begin_span(&active, crossing, i, alive);
 #endif
         mask seen = (mask)(0);
-#if STRENGTH_DEPTH
-        struct light mixed = {zero, zero, zero, zero};
-#endif
+        struct mixture mixture = mix_begin();
         for (int a = 0; a < COUNTED(active.count); a++) {
             const int c = LISTED(active.list, a);
             struct cursor *cursor = &crossing->cursors[c];
@@ -91,24 +81,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                 shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first, t, x, y, z,
                       CHOOSE(zero, sample.raw, visible), &r, &g, &b);
 #endif
-            const real amount = CHOOSE(zero, strength, visible);
-#if STRENGTH_DEPTH
-            mixed.r += amount * r;
-            mixed.g += amount * g;
-            mixed.b += amount * b;
-            mixed.a += amount;
-#else
-            light_add(&light, r, g, b, amount);
-#endif
+            mix_add(&mixture, &light, r, g, b, CHOOSE(zero, strength, visible));
         }
 
         i -= alive; // one on, where the ray still runs
         if (any_lane(seen)) {
-#if STRENGTH_DEPTH
-            const real share = 1.0f / fmax(mixed.a, FLT_MIN);
-            light_add(&light, mixed.r * share, mixed.g * share, mixed.b * share,
-                      1.0f - exp(-mixed.a));
-#endif
+            mix_end(&mixture, &light);
             alive &= MASK(light.a <= world->termination);
         } else {
             i = leap(&active, crossing, i);
@@ -152,5 +130,8 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     light.b += clear * behind.z;
     light.a += clear * behind.w;
     *count = earlier + (uint)sum_lanes(samples);
+#if DEBUG
+    light.r = debug_number(world, &crossing, samples);
+#endif
     store_pixels(world, picture, left, top, &ray, &light);
 }

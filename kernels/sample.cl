@@ -6,6 +6,7 @@
 #define SAMPLE_CL
 
 #include "lanes.h"
+#include "shared/brick.h"
 #include "shared/variant.h"
 #include "shared/world.h"
 

@@ -15,12 +15,21 @@ struct __attribute__((packed)) byte_pair {
     ushort both;
 };
 
-// The four rows of a cell: offsets from its first voxel, and the weights along the axes.
+// The eight voxels around a position: the index of the first, and the weights along the axes.
 struct cell {
     integer offset;
-    int row, slice;
     real x, y, z;
 };
+
+// The index of a voxel, from the part's first, with the next ones along all axes in the same brick. A table of bricks
+// that are there would be looked up here, with the brick's number.
+INLINE integer voxel_index(__constant struct part *part, integer x, integer y, integer z) {
+    const integer inside = BRICK_SIDE - 1;
+    const integer brick = (z >> BRICK_BITS) * part->brick_slice +
+                          (y >> BRICK_BITS) * part->brick_row + (x >> BRICK_BITS);
+    return brick * BRICK_VOXELS + (z & inside) * BRICK_SLICE + (y & inside) * BRICK_ROW +
+           (x & inside);
+}
 
 #define LOAD_PAIR(at) ((__global const struct byte_pair *)(row + (at)))->both
 #define LOAD(at) row[at]
@@ -65,9 +74,9 @@ INLINE real nearest_f32(__global const float *row, integer offset) {
 // Trilinear interpolation over the rows of a cell, for one class of voxels.
 #define TRILINEAR(class, voxels, cell)                                                             \
     mix_lanes(mix_lanes(row_##class(voxels, (cell).offset, (cell).x),                              \
-                        row_##class(voxels + (cell).row, (cell).offset, (cell).x), (cell).y),      \
-              mix_lanes(row_##class(voxels + (cell).slice, (cell).offset, (cell).x),               \
-                        row_##class(voxels + (cell).slice + (cell).row, (cell).offset, (cell).x),  \
+                        row_##class(voxels + BRICK_ROW, (cell).offset, (cell).x), (cell).y),      \
+              mix_lanes(row_##class(voxels + BRICK_SLICE, (cell).offset, (cell).x),               \
+                        row_##class(voxels + BRICK_SLICE + BRICK_ROW, (cell).offset, (cell).x),  \
                         (cell).y),                                                                 \
               (cell).z)
 
@@ -96,7 +105,7 @@ INLINE void sample_rgba(struct sample *s, __global const int *voxels, const stru
             const real y = corner & 2 ? c->y : 1.0f - c->y;
             const real z = corner & 4 ? c->z : 1.0f - c->z;
             const int shift =
-                (corner & 1) + (corner & 2 ? c->row : 0) + (corner & 4 ? c->slice : 0);
+                (corner & 1) + (corner & 2 ? BRICK_ROW : 0) + (corner & 4 ? BRICK_SLICE : 0);
             add_corner(s, voxels + shift, c->offset, x * y * z);
         }
     }
@@ -113,9 +122,7 @@ INLINE struct sample sample_part(MEMORY_PARAMETERS, __constant struct part *part
     // Positions are positive, so truncation is floor.
     const integer ix = TO_INTEGER(x + half_voxel), iy = TO_INTEGER(y + half_voxel),
                   iz = TO_INTEGER(z + half_voxel);
-    const struct cell cell = {.offset = iz * part->slice + iy * part->row + ix,
-                              .row = part->row,
-                              .slice = part->slice,
+    const struct cell cell = {.offset = voxel_index(part, ix, iy, iz),
                               .x = x - TO_REAL(ix),
                               .y = y - TO_REAL(iy),
                               .z = z - TO_REAL(iz)};

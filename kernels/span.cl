@@ -14,7 +14,11 @@
 #include "traverse/none.cl"
 #else
 #include "occupancy.cl"
+#if SKIP == SKIP_OCTREE
+#include "traverse/octree.cl"
+#else
 #include "traverse/grid.cl"
+#endif
 #endif
 
 #ifndef SHADING

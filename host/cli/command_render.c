@@ -88,6 +88,10 @@ static int print_json(const struct run *run) {
     json_object_set_new(object, "device_bytes", json_integer((json_int_t)statistics->device_bytes));
     json_object_set_new(object, "uploaded_bytes",
                         json_integer((json_int_t)statistics->uploaded_bytes));
+    if (run->scene->render.debug != PEL_DEBUG_NONE)
+        json_object_set_new(object, "debug",
+                            json_pack("{s:f, s:f, s:f}", "min", statistics->debug.min, "max",
+                                      statistics->debug.max, "mean", statistics->debug.mean));
     const struct {
         const char *name;
         double ms;

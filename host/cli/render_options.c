@@ -12,6 +12,7 @@ enum {
     KEY_CAMERA,
     KEY_MIX,
     KEY_STEP,
+    KEY_STEP_MM,
     KEY_FILTER,
     KEY_TERMINATION,
     KEY_PHASE,
@@ -22,6 +23,7 @@ enum {
     KEY_ADAPTIVE,
     KEY_SEED,
     KEY_JITTER,
+    KEY_DEBUG,
     KEY_DENSITY,
     KEY_SHADING,
     KEY_BACKGROUND,
@@ -90,10 +92,11 @@ static const struct argp_option argp_options[] = {
     {0, 0, NULL, 0, "Rendering:", 4},
     {"mix", KEY_MIX, "sum|over", 0, "How overlapping volumes share a sample", 0},
     {"step", KEY_STEP, "N", 0, "Distance of samples, in voxels of the finest volume", 0},
+    {"step-mm", KEY_STEP_MM, "MM", 0, "The same in millimetres", 0},
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
     {"termination", KEY_TERMINATION, "X", 0, "End a ray once its opacity exceeds this; 1 for never",
      0},
-    {"skip", KEY_SKIP, "auto|none|grid|distance", 0,
+    {"skip", KEY_SKIP, "auto|none|grid|distance|octree", 0,
      "How empty space is skipped; the picture is the same with each", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,
@@ -104,6 +107,8 @@ static const struct argp_option argp_options[] = {
      "N x N rays only where neighbouring pixels differ by more than X, 0 to 1", 0},
     {"seed", KEY_SEED, "N", 0, "Seed of all random patterns", 0},
     {"jitter", KEY_JITTER, NULL, 0, "A random phase for every ray", 0},
+    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time", 0,
+     "Show a number of each pixel's ray in place of its light, as a heat map", 0},
     {0, 0, NULL, 0, "The device:", 5},
     {"device", KEY_DEVICE, "D", 0,
      "Number, part of the name, or type (gpu, cpu); 'pellucid devices' lists them", 0},
@@ -244,7 +249,12 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         overrides_add_text(&options->overrides, "render.mixing", argument);
         break;
     case KEY_STEP:
+        overrides_add(&options->overrides, "render.step_mm", "null");
         good = add_number(options, "--step", "render.step", argument);
+        break;
+    case KEY_STEP_MM:
+        overrides_add(&options->overrides, "render.step", "null");
+        good = add_number(options, "--step-mm", "render.step_mm", argument);
         break;
     case KEY_TERMINATION:
         good = add_number(options, "--termination", "render.termination", argument);
@@ -272,6 +282,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_JITTER:
         overrides_add(&options->overrides, "render.jitter", "true");
+        break;
+    case KEY_DEBUG:
+        overrides_add_text(&options->overrides, "render.debug", argument);
         break;
     case KEY_FILTER:
         overrides_add_text(&options->overrides, "volumes.*.filter", argument);

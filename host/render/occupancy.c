@@ -1,8 +1,8 @@
 // occupancy.c - which cells of each part may show something, derived on the device.
 //
 // Nothing but counts of visible table entries is sent, so editing a transfer function costs two
-// look-ups a cell and three passes over the cells, and moving the camera or a volume costs nothing
-// here.
+// look-ups a cell and a few passes over the cells (three for distances, and for an octree as much
+// as two and a seventh), and moving the camera or a volume costs nothing here.
 #include "render/occupancy.h"
 
 #include <string.h>
@@ -25,11 +25,12 @@ static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device
 
 // Padding is cleared, so that keys can be compared byte by byte.
 static void make_key(struct pel_occupancy_key *key, const struct pel_world *world,
-                     const struct pel_layout *layout) {
+                     const struct pel_layout *layout, enum pel_skip skip) {
     memset(key, 0, sizeof *key);
     memcpy(&key->layout, layout, sizeof *layout);
     key->part_count = world->bytes.part_count;
     key->linear = world->table_linear;
+    key->tree = skip == PEL_SKIP_OCTREE;
     for (int p = 0; p < key->part_count; p++) {
         const struct part *part = &world->bytes.parts[p];
         struct part *copy = &key->parts[p];
@@ -50,20 +51,50 @@ static size_t part_cells(const struct pel_world *world, int p) {
     return end - world->bytes.parts[p].cells;
 }
 
-// One pass over the cells of part p, from `in` to `out`.
-static bool run_pass(struct pel_occupancy *occupancy, const struct pel_buffer *in,
-                     const struct pel_buffer *out, size_t cells, uint32_t pass) {
+static bool set_pass(struct pel_occupancy *occupancy, const struct pel_buffer *in,
+                     const struct pel_buffer *out, uint32_t pass) {
     struct pel_kernel *kernel = occupancy->kernel;
     return pel_kernel_set_buffer(kernel, 3, in) && pel_kernel_set_buffer(kernel, 4, out) &&
-           pel_kernel_set_u32(kernel, 8, pass) &&
-           pel_kernel_launch(kernel, (cells + GROUP - 1) / GROUP * GROUP, GROUP);
+           pel_kernel_set_u32(kernel, 8, pass);
+}
+
+static bool launch(struct pel_occupancy *occupancy, size_t items) {
+    return pel_kernel_launch(occupancy->kernel, (items + GROUP - 1) / GROUP * GROUP, GROUP);
+}
+
+// One pass over the `count` cells of a part, from `in` to `out`.
+static bool run_pass(struct pel_occupancy *occupancy, const struct pel_buffer *in,
+                     const struct pel_buffer *out, size_t count, uint32_t pass) {
+    return set_pass(occupancy, in, out, pass) && launch(occupancy, count);
+}
+
+// The passes after the first: from `scratch`, which holds what is empty, to `cells`.
+static bool spread_distances(struct pel_occupancy *occupancy, size_t count) {
+    const struct pel_buffer *cells = occupancy->cells, *scratch = occupancy->scratch;
+    return run_pass(occupancy, scratch, cells, count, 0) &&
+           run_pass(occupancy, cells, scratch, count, 1) &&
+           run_pass(occupancy, scratch, cells, count, 2);
+}
+
+// Joins empty nodes level by level up to the root, and tells every cell.
+static bool grow_octree(struct pel_occupancy *occupancy, const struct part *part, size_t count) {
+    size_t dims[3] = {(size_t)part->cell_row, (size_t)(part->cell_slice / part->cell_row),
+                      count / (size_t)part->cell_slice};
+    bool good = true;
+    for (uint32_t level = 1; good && (dims[0] > 1 || dims[1] > 1 || dims[2] > 1); level++) {
+        for (int i = 0; i < 3; i++)
+            dims[i] = (dims[i] + 1) / 2;
+        good = set_pass(occupancy, occupancy->scratch, occupancy->scratch, PASS_MERGE + level) &&
+               launch(occupancy, dims[0] * dims[1] * dims[2]);
+    }
+    return good && run_pass(occupancy, occupancy->scratch, occupancy->cells, count, PASS_NAME);
 }
 
 static bool derive_part(struct pel_occupancy *occupancy, const struct pel_world *world,
                         const struct pel_buffer *world_buffer,
-                        const struct pel_residency *residency, int p) {
+                        const struct pel_residency *residency, enum pel_skip skip, int p) {
     struct pel_kernel *kernel = occupancy->kernel;
-    const struct pel_buffer *cells = occupancy->cells, *scratch = occupancy->scratch;
+    bool tree = skip == PEL_SKIP_OCTREE;
     size_t count = part_cells(world, p);
     return pel_kernel_set_buffer(kernel, 0, world_buffer) &&
            pel_kernel_set_buffer(kernel, 1, residency->ranges) &&
@@ -71,17 +102,17 @@ static bool derive_part(struct pel_occupancy *occupancy, const struct pel_world 
            pel_kernel_set_u32(kernel, 5, (uint32_t)p) &&
            pel_kernel_set_u32(kernel, 6, (uint32_t)count) &&
            pel_kernel_set_u32(kernel, 7, world->table_linear) &&
-           run_pass(occupancy, cells, scratch, count, PASS_OCCUPY) &&
-           run_pass(occupancy, scratch, cells, count, 0) &&
-           run_pass(occupancy, cells, scratch, count, 1) &&
-           run_pass(occupancy, scratch, cells, count, 2);
+           pel_kernel_set_u32(kernel, 9, tree ? 1 : CELL_DISTANCE_MAX) &&
+           run_pass(occupancy, occupancy->cells, occupancy->scratch, count, PASS_OCCUPY) &&
+           (tree ? grow_octree(occupancy, &world->bytes.parts[p], count)
+                 : spread_distances(occupancy, count));
 }
 
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,
                           const struct pel_residency *residency, const struct pel_kernel *render,
-                          bool skip) {
-    if (!skip || world->bytes.part_count == 0)
+                          enum pel_skip skip) {
+    if (skip == PEL_SKIP_NONE || world->bytes.part_count == 0)
         return make_room(occupancy, device, 1);
     bool changed = false;
     if (!occupancy->kernel)
@@ -92,12 +123,12 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
                            &changed))
         return false;
     struct pel_occupancy_key key;
-    make_key(&key, world, &residency->layout);
+    make_key(&key, world, &residency->layout, skip);
     if (!changed && memcmp(&key, &occupancy->key, sizeof key) == 0)
         return true;
     occupancy->key.part_count = 0;
     for (int p = 0; p < world->bytes.part_count; p++)
-        if (!derive_part(occupancy, world, world_buffer, residency, p))
+        if (!derive_part(occupancy, world, world_buffer, residency, skip, p))
             return false;
     if (!pel_device_finish(device))
         return false;

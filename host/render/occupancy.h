@@ -6,12 +6,13 @@
 #include "render/residency.h"
 #include "world/world.h"
 
-// What the distances depend on besides the counts of visible entries.
+// What the cells depend on besides the counts of visible entries.
 struct pel_occupancy_key {
     struct pel_layout layout;
     struct part parts[WORLD_PART_MAX]; // with only the members that matter filled in
     int part_count;
-    bool linear;
+    bool linear; // tables are interpolated
+    bool tree;   // the cells hold nodes of an octree instead of distances
 };
 
 // Zero-initialise.
@@ -19,18 +20,19 @@ struct pel_occupancy {
     struct pel_kernel *kernel;
     struct pel_mirror visible; // counts of visible entries
     struct pel_buffer *cells,
-        *scratch;                 // a distance for each cell of each part, and room to work in
+        *scratch;                 // a byte for each cell of each part, and room to work in
     size_t cell_count;            // room in both
-    struct pel_occupancy_key key; // what the distances are for; part_count 0 = nothing
+    struct pel_occupancy_key key; // what they are for; part_count 0 = nothing
 };
 
-// Derives the distances for a world whose bytes are in `world_buffer`, unless they are there from
-// the last time. The kernel for it comes from the program of `render`, one that skips. With `skip`
-// false only a buffer that kernels can be given is made. False: DEVICE, MEMORY, BUILD.
+// Derives what `skip` (not AUTO) goes by for a world whose bytes are in `world_buffer`, unless it
+// is there from the last time. The kernel for it comes from the program of `render`, one that
+// skips. With PEL_SKIP_NONE only a buffer that kernels can be given is made. False: DEVICE, MEMORY,
+// BUILD.
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,
                           const struct pel_residency *residency, const struct pel_kernel *render,
-                          bool skip);
+                          enum pel_skip skip);
 void pel_occupancy_finish(struct pel_occupancy *occupancy);
 
 #endif

@@ -12,29 +12,25 @@
 #include "base/memory.h"
 #include "device/device.h"
 #include "render/bake.h"
+#include "render/debug.h"
 #include "render/frame.h"
+#include "render/kernel_cache.h"
 #include "render/mirror.h"
 #include "render/occupancy.h"
 #include "render/residency.h"
 #include "render/resolve.h"
+#include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
 
-enum { KERNEL_CACHE = 16, PICTURE_MAX = 32768 };
-
 // A batch of tiles should take about this long.
 static const double batch_ms = 150;
-
-struct cached_kernel {
-    char definitions[PEL_VARIANT_BYTES];
-    struct pel_kernel *kernel;
-};
 
 struct pel_renderer {
     struct pel_device *device;
     struct pel_renderer_options options;
     struct pel_residency residency;
-    struct cached_kernel kernels[KERNEL_CACHE]; // newest first
+    struct pel_kernel_cache kernels;
     struct pel_mirror world, tables;
     struct pel_occupancy occupancy;
     struct pel_resolve resolve;
@@ -42,6 +38,7 @@ struct pel_renderer {
     struct pel_buffer *picture, *sample_counts;
     size_t picture_bytes, sample_counts_bytes;
     double tiles_per_ms; // as the last frame ran; 0 = unknown
+    float *tile_ms;      // what each tile takes, while a debug view asks for it
 };
 
 static double now_ms(void) {
@@ -70,31 +67,6 @@ static bool grow_buffer(struct pel_buffer **buffer, size_t *have, size_t bytes,
     return *buffer != NULL;
 }
 
-// The kernel of a variant, from the cache or built now. Borrowed.
-static struct pel_kernel *find_kernel(struct pel_renderer *renderer,
-                                      const struct pel_variant *variant) {
-    char definitions[PEL_VARIANT_BYTES];
-    pel_variant_write(variant, definitions);
-    struct cached_kernel found = {.kernel = NULL};
-    int place = 0;
-    for (; place < KERNEL_CACHE - 1 && renderer->kernels[place].kernel; place++)
-        if (strcmp(renderer->kernels[place].definitions, definitions) == 0)
-            break;
-    if (renderer->kernels[place].kernel &&
-        strcmp(renderer->kernels[place].definitions, definitions) == 0) {
-        found = renderer->kernels[place];
-    } else {
-        found.kernel = pel_kernel_build(renderer->device, "render.cl", "render", definitions);
-        if (!found.kernel)
-            return NULL;
-        memcpy(found.definitions, definitions, sizeof definitions);
-        pel_kernel_destroy(renderer->kernels[place].kernel);
-    }
-    memmove(&renderer->kernels[1], &renderer->kernels[0], (size_t)place * sizeof found);
-    renderer->kernels[0] = found;
-    return found.kernel;
-}
-
 // ---- One frame ---------------------------------------------------------------------------------
 
 // How a picture's tiles are handed out. A work-group may span several tiles, so launches are
@@ -114,35 +86,6 @@ static struct extent picture_extent(const struct pel_render_settings *settings, 
 
 static size_t round_up(size_t value, size_t multiple) {
     return (value + multiple - 1) / multiple * multiple;
-}
-
-static bool check_supersampling(const struct pel_supersampling *supersampling) {
-    if (supersampling->n < 0 || supersampling->n > PEL_SUPERSAMPLING_MAX)
-        return pel_fail(PEL_ERROR_ARGUMENT, "supersampling with n = %d, outside 0..%d",
-                        supersampling->n, PEL_SUPERSAMPLING_MAX);
-    if ((unsigned)supersampling->pattern > PEL_PATTERN_HAMMERSLEY ||
-        (unsigned)supersampling->filter > PEL_RECONSTRUCTION_GAUSSIAN)
-        return pel_fail(PEL_ERROR_ARGUMENT, "supersampling with pattern %d and filter %d",
-                        (int)supersampling->pattern, (int)supersampling->filter);
-    if (!(supersampling->adaptive >= 0))
-        return pel_fail(PEL_ERROR_ARGUMENT, "adaptive supersampling beyond %g, must be at least 0",
-                        supersampling->adaptive);
-    return true;
-}
-
-static bool check_settings(const struct pel_scene *scene) {
-    const struct pel_render_settings *settings = &scene->render;
-    if (settings->width < 1 || settings->height < 1 || settings->width > PICTURE_MAX ||
-        settings->height > PICTURE_MAX)
-        return pel_fail(PEL_ERROR_ARGUMENT, "picture of %d x %d pixels, outside 1..%d",
-                        settings->width, settings->height, PICTURE_MAX);
-    if (!(settings->step > 0) || !isfinite(settings->step))
-        return pel_fail(PEL_ERROR_ARGUMENT, "step of %g voxels, must be above 0", settings->step);
-    if (!(settings->phase >= 0 && settings->phase <= 1))
-        return pel_fail(PEL_ERROR_ARGUMENT, "phase %g, outside 0..1", settings->phase);
-    if (!(settings->termination >= 0 && settings->termination <= 1))
-        return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
-    return check_supersampling(&settings->supersampling);
 }
 
 // Refuses a frame whose voxels and picture together do not fit, before anything is allocated.
@@ -220,11 +163,19 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
     for (size_t tile = 0; tile < extent->tiles;) {
         size_t left = extent->tiles - tile;
         size_t count = batch < 1 ? 1 : batch < (double)left ? (size_t)batch : left;
+        if (renderer->tile_ms)
+            count = 1;
         count = round_up(count, extent->tiles_per_group);
         if (count > left)
             count = left;
+        // A first launch warms up what it needs, and should not count.
+        if (renderer->tile_ms && tile == 0 && !run_batch(renderer, kernel, extent, 0, count))
+            return false;
+        double begin_ms = now_ms();
         if (!run_batch(renderer, kernel, extent, tile, count))
             return false;
+        for (size_t i = 0; renderer->tile_ms && i < count; i++)
+            renderer->tile_ms[tile + i] = (float)((now_ms() - begin_ms) / (double)count);
         tile += count;
         double finished = pass.number + (double)tile / (double)extent->tiles;
         if (options && options->progress &&
@@ -303,11 +254,10 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     double mark = now_ms();
     struct pel_device *device = renderer->device;
     int lanes = statistics->lanes;
-    bool skip = statistics->skip != PEL_SKIP_NONE;
     struct pel_variant variant =
         pel_variant_choose(world, layout->reader, statistics->skip, lanes,
                            pel_device_describe(device)->max_constant_bytes);
-    struct pel_kernel *kernel = find_kernel(renderer, &variant);
+    struct pel_kernel *kernel = pel_kernel_cache_find(&renderer->kernels, device, &variant);
     if (!kernel)
         return NULL;
     statistics->build_ms = lap_ms(&mark);
@@ -330,12 +280,41 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, kernel, skip) ||
+                              &renderer->residency, kernel, statistics->skip) ||
         !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);
     statistics->work_group = (int)extent->group;
     return kernel;
+}
+
+// Runs the kernel as often as a picture needs.
+static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
+                       const struct pel_scene *scene, const struct extent *extent,
+                       bool supersampling, const struct pel_render_options *options,
+                       struct pel_render_statistics *statistics) {
+    statistics->rays = (uint64_t)scene->render.width * (uint64_t)scene->render.height;
+    statistics->refined = 1;
+    if (supersampling)
+        return run_rays(renderer, kernel, scene, extent, options, statistics);
+    if (scene->render.debug == PEL_DEBUG_TIME) {
+        renderer->tile_ms = pel_allocate(extent->tiles, sizeof *renderer->tile_ms);
+        if (!renderer->tile_ms)
+            return false;
+    }
+    return run_tiles(renderer, kernel, extent, options, (struct pass){0, 1});
+}
+
+// Makes a debug view's picture of what came from the device.
+static bool paint(struct pel_image *image, const struct pel_renderer *renderer, enum pel_debug view,
+                  const struct pel_render_options *options,
+                  struct pel_render_statistics *statistics) {
+    size_t tiles_x = ((size_t)image->width + TILE_PX - 1) / TILE_PX;
+    for (int y = 0; renderer->tile_ms && y < image->height; y++)
+        for (int x = 0; x < image->width; x++)
+            image->rgba[4 * ((size_t)y * (size_t)image->width + (size_t)x)] =
+                renderer->tile_ms[(size_t)(y / TILE_PX) * tiles_x + (size_t)(x / TILE_PX)];
+    return pel_debug_paint(image, view, options ? options->numbers : NULL, &statistics->debug);
 }
 
 // Runs the kernel and brings the picture here. The caller owns it.
@@ -345,16 +324,16 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
                              struct pel_render_statistics *statistics) {
     double mark = now_ms();
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
-    statistics->rays = pixels;
-    statistics->refined = 1;
-    if (!(supersampling ? run_rays(renderer, kernel, scene, extent, options, statistics)
-                        : run_tiles(renderer, kernel, extent, options, (struct pass){0, 1})))
-        return NULL;
+    bool good = run_passes(renderer, kernel, scene, extent, supersampling, options, statistics);
     statistics->render_ms = lap_ms(&mark);
-    struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
-    if (!image)
-        return NULL;
-    if (!pel_buffer_read(renderer->picture, 0, pixels * sizeof(float4), image->rgba)) {
+    struct pel_image *image =
+        good ? pel_image_create(scene->render.width, scene->render.height) : NULL;
+    good = image && pel_buffer_read(renderer->picture, 0, pixels * sizeof(float4), image->rgba) &&
+           (scene->render.debug == PEL_DEBUG_NONE ||
+            paint(image, renderer, scene->render.debug, options, statistics));
+    free(renderer->tile_ms);
+    renderer->tile_ms = NULL;
+    if (!good) {
         pel_image_destroy(image);
         return NULL;
     }
@@ -384,7 +363,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
         statistics = &unwanted;
     *statistics = (struct pel_render_statistics){0};
     uint64_t uploaded_before = pel_device_uploaded_bytes(renderer->device);
-    if (!check_settings(scene))
+    if (!pel_settings_check(scene))
         return NULL;
 
     // Where the voxels lie decides what the world's bytes say.
@@ -466,8 +445,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_resolve_finish(&renderer->resolve);
     pel_buffer_destroy(renderer->picture);
     pel_buffer_destroy(renderer->sample_counts);
-    for (int i = 0; i < KERNEL_CACHE; i++)
-        pel_kernel_destroy(renderer->kernels[i].kernel);
+    pel_kernel_cache_finish(&renderer->kernels);
     pel_kernel_destroy(renderer->bake);
     pel_device_close(renderer->device);
     free(renderer);

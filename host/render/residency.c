@@ -7,6 +7,7 @@
 #include "accel/grid.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "world/brick.h"
 #include "world/pack.h"
 
 static const enum pel_texel class_texel[VOXEL_CLASS_COUNT] = {PEL_TEXEL_R8, PEL_TEXEL_R16,
@@ -54,49 +55,110 @@ static bool create_memory(struct pel_residency *residency, const struct pel_layo
     return residency->ranges != NULL;
 }
 
-// Sends `count` packed slices of a slab, from its border's slice `first` on.
-static bool send_slices(struct pel_residency *residency, const struct pel_slab *slab,
-                        const size_t slice_dims[2], size_t slice_bytes, size_t first, size_t count,
-                        const void *slices) {
-    if (residency->layout.reader == PEL_READER_BUFFER)
+// A slab on its way to the device: a piece of its slices, packed.
+struct shipment {
+    const struct pel_volume *volume;
+    const struct pel_slab *slab;
+    size_t dims[3], voxel_bytes, slice_bytes;
+    size_t room;         // slices in a piece
+    size_t first, count; // those in it now
+    char *slices;        // owned
+    char *layer;         // owned; `buffer` reader: a layer of bricks
+    size_t layer_bytes;
+};
+
+static void shipment_finish(struct shipment *shipment) {
+    free(shipment->slices);
+    free(shipment->layer);
+}
+
+// With bricks a piece is one layer of them and the slice behind it; else it is of about
+// piece_bytes.
+static bool shipment_init(struct shipment *shipment, const struct pel_volume *volume,
+                          const struct pel_slab *slab, bool bricks) {
+    *shipment = (struct shipment){.volume = volume, .slab = slab};
+    size_t *dims = shipment->dims;
+    pel_slab_dims(slab, volume, dims);
+    shipment->voxel_bytes = pel_voxel_class_bytes(slab->class_index);
+    if (!pel_size_multiply(&shipment->slice_bytes, 3,
+                           (size_t[]){dims[0], dims[1], shipment->voxel_bytes}))
+        return false;
+    size_t most = piece_bytes / shipment->slice_bytes;
+    shipment->room = bricks ? BRICK_SIDE + 1 : most > dims[2] ? dims[2] : most > 0 ? most : 1;
+    size_t bytes;
+    if (!pel_size_multiply(&bytes, 2, (size_t[]){shipment->room, shipment->slice_bytes}))
+        return false;
+    shipment->slices = pel_allocate_voxels(bytes);
+    if (bricks) {
+        if (!pel_size_multiply(&shipment->layer_bytes, 4,
+                               (size_t[]){pel_brick_count(dims[0]), pel_brick_count(dims[1]),
+                                          BRICK_VOXELS, shipment->voxel_bytes})) {
+            shipment_finish(shipment);
+            return false;
+        }
+        shipment->layer = pel_allocate_voxels(shipment->layer_bytes);
+    }
+    if (shipment->slices && (shipment->layer || !bricks))
+        return true;
+    shipment_finish(shipment);
+    return false;
+}
+
+// Packs the slices from the slab's border's slice `first` on, and adds those that are new to the
+// grid.
+static void load_slices(struct shipment *shipment, size_t first, struct pel_grid *grid,
+                        float scale) {
+    const struct pel_slab *slab = shipment->slab;
+    size_t left = shipment->dims[2] - first, bytes = shipment->slice_bytes;
+    size_t packed = shipment->first + shipment->count;
+    size_t kept = packed > first ? packed - first : 0;
+    memmove(shipment->slices, shipment->slices + (shipment->count - kept) * bytes, kept * bytes);
+    shipment->first = first;
+    shipment->count = left < shipment->room ? left : shipment->room;
+    for (size_t i = kept; i < shipment->count; i++) {
+        char *slice = shipment->slices + i * bytes;
+        pel_pack_slice(shipment->volume, slab->first - slab->border[0] + (int)(first + i), slice);
+        pel_grid_add_slice(grid, first + i, slice, slab->class_index, scale);
+    }
+}
+
+static bool send_slices(struct pel_residency *residency, struct shipment *shipment) {
+    const struct pel_slab *slab = shipment->slab;
+    size_t dims[3] = {shipment->dims[0], shipment->dims[1], shipment->count};
+    if (shipment->layer) {
+        pel_brick_layer(shipment->layer, shipment->slices, dims, shipment->voxel_bytes);
+        size_t layer = shipment->first / BRICK_SIDE;
         return pel_buffer_write(residency->buffers[slab->buffer],
-                                slab->offset_bytes + first * slice_bytes, count * slice_bytes,
-                                slices);
-    size_t origin[3] = {slab->origin[0], slab->origin[1], slab->origin[2] + first};
-    size_t dims[3] = {slice_dims[0], slice_dims[1], count};
-    return pel_texture_write(residency->atlases[slab->class_index], origin, dims, slices);
+                                slab->offset_bytes + layer * shipment->layer_bytes,
+                                shipment->layer_bytes, shipment->layer);
+    }
+    size_t origin[3] = {slab->origin[0], slab->origin[1], slab->origin[2] + shipment->first};
+    return pel_texture_write(residency->atlases[slab->class_index], origin, dims, shipment->slices);
 }
 
 // Packs and sends a slab, and on the way finds the range of values in each of its cells.
 static bool send_slab(struct pel_residency *residency, const struct pel_volume *volume,
                       const struct pel_slab *slab) {
-    size_t dims[3], slice_bytes;
-    pel_slab_dims(slab, volume, dims);
-    if (!pel_size_multiply(&slice_bytes, 3,
-                           (size_t[]){dims[0], dims[1], pel_voxel_class_bytes(slab->class_index)}))
+    bool bricks = residency->layout.reader == PEL_READER_BUFFER;
+    struct shipment shipment;
+    if (!shipment_init(&shipment, volume, slab, bricks))
         return false;
-    size_t most = piece_bytes / slice_bytes > 0 ? piece_bytes / slice_bytes : 1;
-    if (most > dims[2])
-        most = dims[2];
     struct pel_grid grid;
-    if (!pel_grid_init(&grid, dims))
+    if (!pel_grid_init(&grid, shipment.dims)) {
+        shipment_finish(&shipment);
         return false;
-    char *piece = pel_allocate_voxels(most * slice_bytes);
-    bool good = piece != NULL;
+    }
+    bool good = true;
+    size_t step = bricks ? BRICK_SIDE : shipment.room;
     double scale = 1 / pel_reader_factor(residency->layout.reader, slab->class_index);
-    for (size_t first = 0; good && first < dims[2]; first += most) {
-        size_t count = dims[2] - first < most ? dims[2] - first : most;
-        for (size_t i = 0; i < count; i++) {
-            char *slice = piece + i * slice_bytes;
-            pel_pack_slice(volume, slab->first - slab->border[0] + (int)(first + i), slice);
-            pel_grid_add_slice(&grid, first + i, slice, slab->class_index, (float)scale);
-        }
-        good = send_slices(residency, slab, dims, slice_bytes, first, count, piece);
+    for (size_t first = 0; good && first < shipment.dims[2]; first += step) {
+        load_slices(&shipment, first, &grid, (float)scale);
+        good = send_slices(residency, &shipment);
     }
     size_t cells = grid.cells[0] * grid.cells[1] * grid.cells[2];
     good = good && pel_buffer_write(residency->ranges, slab->ranges * sizeof *grid.range,
                                     cells * sizeof *grid.range, grid.range);
-    free(piece);
+    shipment_finish(&shipment);
     pel_grid_finish(&grid);
     return good;
 }

@@ -3,6 +3,21 @@
 
 #include <stdio.h>
 
+static int skip_knob(enum pel_skip skip) {
+    switch (skip) {
+    case PEL_SKIP_NONE:
+        return SKIP_NONE;
+    case PEL_SKIP_GRID:
+        return SKIP_GRID;
+    case PEL_SKIP_OCTREE:
+        return SKIP_OCTREE;
+    case PEL_SKIP_AUTO:
+    case PEL_SKIP_DISTANCE:
+        break;
+    }
+    return SKIP_DISTANCE;
+}
+
 struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_reader reader,
                                       enum pel_skip skip, int lanes, uint64_t constant_bytes) {
     int parts = world->bytes.part_count;
@@ -13,9 +28,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .voxels = world->voxels ? world->voxels : VOXELS_U8,
         .filters = world->filters ? world->filters : FILTERS_LINEAR,
         .mixing = world->mixing,
-        .skip = skip == PEL_SKIP_NONE   ? SKIP_NONE
-                : skip == PEL_SKIP_GRID ? SKIP_GRID
-                                        : SKIP_DISTANCE,
+        .skip = skip_knob(skip),
         .capacity = parts <= 1   ? 1
                     : parts <= 8 ? 8
                                  : WORLD_PART_MAX,
@@ -23,6 +36,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .table_linear = world->table_linear,
         .supersampling = world->supersampling,
         .jitter = world->jitter,
+        .debug = world->bytes.debug != DEBUG_NONE && world->bytes.debug != DEBUG_TIME,
         .table_global =
             sizeof world->bytes + world->table_words * sizeof *world->tables > constant_bytes,
     };
@@ -32,9 +46,9 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
     snprintf(text, PEL_VARIANT_BYTES,
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
-             "-DSUPERSAMPLING=%d -DJITTER=%d",
+             "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
-             variant->jitter);
+             variant->jitter, variant->debug);
 }

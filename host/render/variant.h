@@ -4,7 +4,7 @@
 
 #include "world/world.h"
 
-enum { PEL_VARIANT_BYTES = 256 };
+enum { PEL_VARIANT_BYTES = 512 };
 
 // Zero-initialise and fill: variants are compared by the text they are written as.
 struct pel_variant {
@@ -19,6 +19,7 @@ struct pel_variant {
     bool table_linear;
     bool supersampling; // one of several rays of each pixel at a time
     bool jitter;        // every ray has a phase of its own
+    bool debug;         // a number of each ray in place of its light
     bool table_global;  // the tables do not fit into constant memory
 };
 

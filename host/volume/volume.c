@@ -95,11 +95,16 @@ struct pel_volume *pel_volume_create(const char *name, const int dims[3],
 }
 
 void pel_volume_destroy(struct pel_volume *volume) {
-    if (!volume)
+    if (!volume || __atomic_fetch_sub(&volume->shares, 1, __ATOMIC_ACQ_REL) > 0)
         return;
     free(volume->name);
     free(volume->voxels);
     free(volume);
+}
+
+struct pel_volume *pel_volume_share(struct pel_volume *volume) {
+    __atomic_fetch_add(&volume->shares, 1, __ATOMIC_RELAXED);
+    return volume;
 }
 
 size_t pel_volume_voxel_count(const struct pel_volume *volume) {

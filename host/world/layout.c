@@ -6,6 +6,7 @@
 
 #include "accel/grid.h"
 #include "base/error.h"
+#include "world/brick.h"
 
 // Buffers are addressed with 31 bits per lane, whatever the device would allow.
 static const uint64_t buffer_limit = (uint64_t)1 << 31;
@@ -46,8 +47,10 @@ double pel_reader_factor(enum pel_reader reader, int class_index) {
     return (double[VOXEL_CLASS_COUNT]){255, 65535, 1, 255}[class_index];
 }
 
-static uint64_t slice_bytes(const struct pel_volume *volume) {
-    return ((uint64_t)volume->dims[0] + 2) * ((uint64_t)volume->dims[1] + 2) *
+// One layer of a volume's bricks.
+static uint64_t layer_bytes(const struct pel_volume *volume) {
+    return (uint64_t)pel_brick_count((size_t)volume->dims[0] + 2) *
+           pel_brick_count((size_t)volume->dims[1] + 2) * BRICK_VOXELS *
            pel_voxel_class_bytes(pel_voxel_class(volume->type));
 }
 
@@ -55,7 +58,8 @@ static uint64_t slice_bytes(const struct pel_volume *volume) {
 static uint64_t scene_bytes(const struct pel_scene *scene) {
     uint64_t bytes = 0;
     for (int v = 0; v < scene->volume_count; v++)
-        bytes += slice_bytes(scene->volumes[v]) * ((uint64_t)scene->volumes[v]->dims[2] + 2);
+        bytes += layer_bytes(scene->volumes[v]) *
+                 pel_brick_count((size_t)scene->volumes[v]->dims[2] + 2);
     return bytes;
 }
 
@@ -108,23 +112,23 @@ static bool plan_buffers(struct pel_layout *layout, const struct pel_scene *scen
         limits->max_allocation_bytes < buffer_limit ? limits->max_allocation_bytes : buffer_limit;
     for (int v = 0; v < scene->volume_count; v++) {
         const struct pel_volume *volume = scene->volumes[v];
-        uint64_t slice = slice_bytes(volume);
-        uint64_t most = limit / slice; // slices that fit into one buffer, border included
+        uint64_t layer = layer_bytes(volume);
+        uint64_t most =
+            limit / layer * BRICK_SIDE; // slices that fit into one buffer, border included
         bool whole = most >= (uint64_t)volume->dims[2] + 2;
-        if (!whole && most < 5)
+        if (!whole && most == 0)
             return pel_fail(PEL_ERROR_DEVICE,
-                            "volume '%s': one slice needs %" PRIu64
-                            " bytes with its border, the device's largest "
-                            "allocation is %" PRIu64,
-                            volume->name, slice * 5, limit);
+                            "volume '%s': a layer of %d slices needs %" PRIu64
+                            " bytes, the device's largest allocation is %" PRIu64,
+                            volume->name, BRICK_SIDE, layer, limit);
         int slices = whole ? volume->dims[2] : (int)(most - 4);
         for (int first = 0; first < volume->dims[2]; first += slices) {
             int count = volume->dims[2] - first < slices ? volume->dims[2] - first : slices;
             struct pel_slab *slab = add_slab(layout, scene, v, first, count);
             if (!slab)
                 return false;
-            uint64_t stored = (uint64_t)(slab->border[0] + count + slab->border[1]);
-            if (!place_slab(layout, slab, slice * stored, limit))
+            size_t stored = (size_t)(slab->border[0] + count + slab->border[1]);
+            if (!place_slab(layout, slab, layer * pel_brick_count(stored), limit))
                 return pel_fail(
                     PEL_ERROR_DEVICE,
                     "the volumes need %" PRIu64 " bytes, the device takes %d buffers of %" PRIu64

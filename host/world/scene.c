@@ -34,16 +34,64 @@ struct pel_instance pel_instance_default(void) {
                                  .filter = PEL_FILTER_LINEAR};
 }
 
+bool pel_instance_copy(struct pel_instance *copy, const struct pel_instance *instance) {
+    *copy = *instance;
+    copy->transfer = instance->transfer ? pel_transfer_copy(instance->transfer) : NULL;
+    return copy->transfer || !instance->transfer;
+}
+
+void pel_instance_finish(struct pel_instance *instance) {
+    pel_transfer_destroy(instance->transfer);
+}
+
+bool pel_volume_source_copy(struct pel_volume_source *copy,
+                            const struct pel_volume_source *source) {
+    *copy = *source;
+    copy->file = source->file ? pel_copy_text(source->file) : NULL;
+    return copy->file || !source->file;
+}
+
+void pel_volume_source_finish(struct pel_volume_source *source) {
+    free(source->file);
+}
+
 void pel_scene_destroy(struct pel_scene *scene) {
     if (!scene)
         return;
-    for (int i = 0; i < scene->volume_count; i++)
+    for (int i = 0; i < scene->volume_count; i++) {
         pel_volume_destroy(scene->volumes[i]);
+        pel_volume_source_finish(&scene->sources[i]);
+    }
     for (int i = 0; i < scene->instance_count; i++)
-        pel_transfer_destroy(scene->instances[i].transfer);
+        pel_instance_finish(&scene->instances[i]);
     free(scene->text);
     pel_scene_source_destroy(scene->source);
     free(scene);
+}
+
+struct pel_scene *pel_scene_copy(const struct pel_scene *scene) {
+    struct pel_scene *copy = pel_allocate(1, sizeof *copy);
+    if (!copy)
+        return NULL;
+    // What is owned is counted as it is copied, so that the copy can be destroyed at any time.
+    *copy = *scene;
+    copy->volume_count = copy->instance_count = 0;
+    copy->source = pel_scene_source_share(scene->source);
+    copy->text = scene->text ? pel_copy_text(scene->text) : NULL;
+    bool good = copy->text || !scene->text;
+    while (good && copy->volume_count < scene->volume_count) {
+        int index = copy->volume_count++;
+        copy->volumes[index] = pel_volume_share(scene->volumes[index]);
+        good = pel_volume_source_copy(&copy->sources[index], &scene->sources[index]);
+    }
+    while (good && copy->instance_count < scene->instance_count) {
+        int index = copy->instance_count++;
+        good = pel_instance_copy(&copy->instances[index], &scene->instances[index]);
+    }
+    if (good)
+        return copy;
+    pel_scene_destroy(copy);
+    return NULL;
 }
 
 void pel_instance_bounds(const struct pel_scene *scene, int instance, struct pel_bounds *bounds) {

@@ -1,11 +1,20 @@
-// scene.h - inside the world module: what a new scene is before anything is read into it.
+// scene.h - inside the world module: the parts of a scene.
 #ifndef PEL_WORLD_SCENE_H
 #define PEL_WORLD_SCENE_H
 
 #include "pellucid.h"
 
-// An empty scene (NULL: MEMORY), and an instance of volume 0 that owns nothing, with every default.
-struct pel_scene *pel_scene_create(void);
+// An instance of volume 0 that owns nothing, with every default.
 struct pel_instance pel_instance_default(void);
+
+// Copies what an instance owns; false (MEMORY) leaves the copy owning nothing.
+bool pel_instance_copy(struct pel_instance *copy, const struct pel_instance *instance);
+void pel_instance_finish(struct pel_instance *instance);
+
+bool pel_volume_source_copy(struct pel_volume_source *copy, const struct pel_volume_source *source);
+void pel_volume_source_finish(struct pel_volume_source *source);
+
+// Loads or generates what the source says. The caller owns it; NULL as pel_volume_load fails.
+struct pel_volume *pel_volume_source_open(const struct pel_volume_source *source);
 
 #endif

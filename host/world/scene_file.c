@@ -36,47 +36,42 @@ static bool write_text(struct pel_scene *scene, const json_t *root) {
     return scene->text || pel_fail(PEL_ERROR_MEMORY, "cannot allocate the scene's text");
 }
 
-// Reads the scene of `source` into `scene`, at the frame its JSON says.
-static bool read_frame(struct pel_scene *scene, const struct pel_scene_source *source,
-                       struct pel_scene_plan *plan, const struct pel_scene_stock *stock) {
+// Reads the scene of `source` at a frame of its animation, by default the one that it says, and
+// takes over what stays of the scene before.
+static bool read_frame(struct pel_scene *scene, const double *frame,
+                       const struct pel_scene *before) {
+    const struct pel_scene_document *document = &scene->source->document;
     struct pel_animation animation = {0};
-    const struct pel_scene_node written = {.document = &source->document, .value = source->root};
-    json_t *root = json_deep_copy(source->root);
-    plan->scene = (struct pel_scene_node){.document = &source->document, .value = root};
-    bool good = root || pel_fail(PEL_ERROR_MEMORY, "cannot allocate a scene");
-    good = good && pel_animation_read(&animation, &written) &&
-           pel_animation_apply(&animation, root) && read_document(scene, plan) &&
-           pel_animation_read_transfers(&animation, plan, scene->instance_count) &&
-           pel_scene_load_volumes(scene, plan, stock) &&
-           pel_animation_place_camera(&animation, scene, plan) && write_text(scene, source->root);
-    scene->timeline = animation.timeline;
-    pel_animation_finish(&animation);
-    json_decref(root);
-    return good;
-}
-
-static struct pel_scene_plan *create_plan(void) {
-    return pel_allocate(1, sizeof(struct pel_scene_plan));
-}
-
-static void destroy_plan(struct pel_scene_plan *plan) {
-    if (plan)
+    struct pel_scene_plan *plan = pel_allocate(1, sizeof *plan);
+    json_t *written = json_deep_copy(scene->source->root), *root = json_deep_copy(written);
+    if (frame)
+        json_object_set_new(json_object_get(written, "animation"), "frame", json_real(*frame));
+    const struct pel_scene_node written_node = {.document = document, .value = written};
+    bool good = plan && (root || pel_fail(PEL_ERROR_MEMORY, "cannot allocate a scene"));
+    if (good) {
+        plan->scene = (struct pel_scene_node){.document = document, .value = root};
+        good = pel_animation_read(&animation, &written_node) &&
+               pel_animation_apply(&animation, root) && read_document(scene, plan) &&
+               pel_animation_read_transfers(&animation, plan, scene->instance_count) &&
+               pel_scene_load_volumes(scene, plan, before) &&
+               pel_animation_place_camera(&animation, scene, plan) && write_text(scene, written);
+        scene->timeline = animation.timeline;
+        pel_animation_finish(&animation);
         pel_scene_plan_finish(plan);
+    }
+    json_decref(written);
+    json_decref(root);
     free(plan);
+    return good;
 }
 
 // Makes a scene of parsed JSON.
 static struct pel_scene *build(const struct pel_scene_document *document, const json_t *root) {
-    const struct pel_scene_stock nothing = {NULL, NULL};
-    struct pel_scene_source *source = pel_scene_source_create(document, root);
-    struct pel_scene *scene = source ? pel_scene_create() : NULL;
-    if (!scene) {
-        pel_scene_source_destroy(source);
+    struct pel_scene *scene = pel_scene_create();
+    if (!scene)
         return NULL;
-    }
-    scene->source = source;
-    source->plan = create_plan();
-    if (source->plan && read_frame(scene, source, source->plan, &nothing))
+    scene->source = pel_scene_source_create(document, root);
+    if (scene->source && read_frame(scene, NULL, NULL))
         return scene;
     pel_scene_destroy(scene);
     return NULL;
@@ -157,49 +152,22 @@ struct pel_scene *pel_scene_from_files(const char *const *paths, int path_count,
     return scene;
 }
 
-// Volumes that both scenes have belong to the one that goes on.
-static void give_up_shared(struct pel_scene *loser, const struct pel_scene *owner) {
-    for (int i = 0; i < loser->volume_count; i++)
-        for (int k = 0; k < owner->volume_count; k++)
-            if (loser->volumes[i] == owner->volumes[k]) {
-                loser->volumes[i] = NULL;
-                break;
-            }
-}
-
 bool pel_scene_set_frame(struct pel_scene *scene, double frame) {
     int count = scene->timeline.frame_count;
     if (!scene->source || count == 0)
         return pel_fail(PEL_ERROR_ARGUMENT, "the scene has no animation");
     if (!(frame >= 0 && frame <= count))
         return pel_fail(PEL_ERROR_ARGUMENT, "frame %g, outside 0..%d", frame, count);
-    struct pel_scene_source *source = scene->source;
-    struct pel_scene_stock stock = {scene, source->plan};
-    struct pel_scene_plan *plan = create_plan();
-    struct pel_scene *next = plan ? pel_scene_create() : NULL;
-    if (!next) {
-        destroy_plan(plan);
+    struct pel_scene *next = pel_scene_create();
+    if (!next)
         return false;
-    }
-    json_t *animation = json_object_get(source->root, "animation");
-    double before = scene->timeline.frame;
-    json_object_set_new(animation, "frame", json_real(frame));
-    bool good = read_frame(next, source, plan, &stock);
+    next->source = pel_scene_source_share(scene->source);
+    bool good = read_frame(next, &frame, scene) || pel_fail_in("frame %g", frame);
     if (good) {
-        // The caller's scene becomes the next one, and what was it goes.
-        give_up_shared(scene, next);
-        next->source = source;
+        // The caller's scene becomes the next one, and what it was goes.
         struct pel_scene old = *scene;
         *scene = *next;
         *next = old;
-        next->source = NULL;
-        destroy_plan(source->plan);
-        source->plan = plan;
-    } else {
-        give_up_shared(next, scene);
-        json_object_set_new(animation, "frame", json_real(before));
-        destroy_plan(plan);
-        pel_fail_in("frame %g", frame);
     }
     pel_scene_destroy(next);
     return good;

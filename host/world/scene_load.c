@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "transfer/blend.h"
+#include "world/scene.h"
 
 static bool same_text(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
@@ -39,61 +40,48 @@ static bool same_load_options(const struct pel_load_options *a, const struct pel
            a->raw.big_endian == b->raw.big_endian;
 }
 
-// True when both plans ask for the same voxels in the same place.
-static bool same_volume(const struct pel_volume_plan *a, const struct pel_volume_plan *b) {
-    return same_file(a->file, b->file) && same_text(a->kind, b->kind) &&
-           same_load_options(&a->load, &b->load) && a->generate.size == b->generate.size &&
-           a->generate.spacing_mm == b->generate.spacing_mm &&
-           a->generate.type == b->generate.type && a->generate.second == b->generate.second &&
-           same_triple(a->spacing, b->spacing);
-}
-
-// Directions and the centre of voxel (0,0,0) stay, the distances between voxels are replaced.
-static void replace_spacing(struct pel_volume *volume, const double spacing_mm[3]) {
-    double old_mm[3];
-    pel_volume_spacing(volume, old_mm);
-    for (int row = 0; row < 3; row++)
-        for (int axis = 0; axis < 3; axis++)
-            volume->world_from_voxel.m[row][axis] *= spacing_mm[axis] / old_mm[axis];
-}
-
-// The volume of the stock that is wanted, taken over with its statistics; false if there is none.
-static bool take_from_stock(struct pel_scene *scene, const struct pel_volume_plan *wanted,
-                            const struct pel_scene_stock *stock) {
-    for (int i = 0; stock->scene && i < stock->scene->instance_count; i++) {
-        if (!same_volume(wanted, &stock->plan->volume[i]))
-            continue;
-        int index = stock->scene->instances[i].volume;
-        scene->volumes[scene->volume_count] = stock->scene->volumes[index];
-        scene->statistics[scene->volume_count++] = stock->scene->statistics[index];
-        return true;
+// The scene's volume of the same voxels in the same place, or -1.
+static int find_volume(const struct pel_scene *scene, const struct pel_volume_source *wanted) {
+    for (int i = 0; scene && i < scene->volume_count; i++) {
+        const struct pel_volume_source *source = &scene->sources[i];
+        const struct pel_generate_options *a = &source->generate, *b = &wanted->generate;
+        if ((source->file || source->kind) && same_file(source->file, wanted->file) &&
+            same_text(source->kind, wanted->kind) &&
+            same_load_options(&source->load, &wanted->load) && a->size == b->size &&
+            a->spacing_mm == b->spacing_mm && a->type == b->type && a->second == b->second &&
+            same_triple(source->spacing, wanted->spacing))
+            return i;
     }
-    return false;
+    return -1;
 }
 
-// Loads the volume of one instance, or finds it among those already there.
+// Loads the volume of one instance, or finds it among those already here or in the scene before.
 static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, int instance,
-                        const struct pel_scene_stock *stock) {
+                        const struct pel_scene *before) {
     struct pel_volume_plan *wanted = &plan->volume[instance];
-    for (int i = 0; i < instance; i++) {
-        if (same_volume(wanted, &plan->volume[i])) {
-            scene->instances[instance].volume = scene->instances[i].volume;
-            return true;
-        }
-    }
-    int index = scene->volume_count;
-    scene->instances[instance].volume = index;
-    if (take_from_stock(scene, wanted, stock))
+    struct pel_volume_source source = {
+        wanted->file,
+        wanted->load,
+        wanted->kind,
+        wanted->generate,
+        {wanted->spacing[0], wanted->spacing[1], wanted->spacing[2]}};
+    int *index = &scene->instances[instance].volume;
+    *index = find_volume(scene, &source);
+    if (*index >= 0)
         return true;
-    struct pel_volume *volume = wanted->file ? pel_volume_load(wanted->file, &wanted->load)
-                                             : pel_volume_generate(wanted->kind, &wanted->generate);
+    int kept = find_volume(before, &source);
+    struct pel_volume *volume =
+        kept < 0 ? pel_volume_source_open(&source) : pel_volume_share(before->volumes[kept]);
     if (!volume)
         return pel_node_fail_in(&wanted->node);
-    if (wanted->spacing[0] > 0)
-        replace_spacing(volume, wanted->spacing);
-    scene->volumes[index] = volume;
-    scene->volume_count++;
-    pel_volume_measure(volume, &scene->statistics[index]);
+    *index = scene->volume_count++;
+    scene->volumes[*index] = volume;
+    if (!pel_volume_source_copy(&scene->sources[*index], &source))
+        return false;
+    if (kept < 0)
+        pel_volume_measure(volume, &scene->statistics[*index]);
+    else
+        scene->statistics[*index] = before->statistics[kept];
     return true;
 }
 
@@ -189,15 +177,15 @@ static void warn_unseen(const struct pel_scene *scene) {
 }
 
 bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan,
-                            const struct pel_scene_stock *stock) {
+                            const struct pel_scene *before) {
     for (int i = 0; i < scene->instance_count; i++)
-        if (!load_volume(scene, plan, i, stock))
+        if (!load_volume(scene, plan, i, before))
             return false;
     for (int i = 0; i < scene->instance_count; i++)
         if (!settle_transfer(scene, plan, i) || !settle_pose(scene, plan, i) ||
             !check_place(scene, plan, i))
             return false;
-    if (!stock->scene)
+    if (!before)
         warn_unseen(scene);
     return true;
 }

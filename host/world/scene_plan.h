@@ -68,21 +68,17 @@ bool pel_scene_read_material(struct pel_material *material, const struct pel_sce
 // A colour by name, as #rrggbb[aa] or as 3 or 4 numbers; without an alpha, rgba[3] stays.
 bool pel_scene_read_colour(double rgba[4], const struct pel_scene_node *object, const char *key);
 
+// `step` or `step_mm` of a scene's settings or of a volume, but not both.
+bool pel_scene_read_step(const struct pel_scene_node *object, double *step, double *step_mm);
+
 // The one instance of that name; fails about `node` when there is none, or several.
 bool pel_scene_find_instance(const struct pel_scene *scene, const struct pel_scene_node *node,
                              const char *name, int *instance);
 
-// Volumes that are there already, and how they came about.
-struct pel_scene_stock {
-    const struct pel_scene *scene; // NULL: there are none
-    const struct pel_scene_plan *plan;
-};
-
-// Second pass. `scene` owns what was loaded even when it fails. Volumes of `stock` are taken over
-// instead of being loaded again: they then belong to both scenes, and the caller takes them away
-// from one.
+// Second pass. `scene` owns what was loaded even when it fails. Volumes that the scene `before`
+// (which may be NULL) has too are shared with it instead of being loaded again.
 bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan,
-                            const struct pel_scene_stock *stock);
+                            const struct pel_scene *before);
 bool pel_scene_place_camera(struct pel_scene *scene, const struct pel_camera_plan *plan);
 
 // A transfer function that shows what is in a volume nobody has described: see scene_auto.c. The

@@ -11,9 +11,9 @@
 
 enum { PICTURE_MAX = 32768 };
 
-static const char *const render_keys[] = {"comment",       "size",        "mixing", "step",
-                                          "phase",         "termination", "origin", "skip",
-                                          "supersampling", "jitter",      NULL};
+static const char *const render_keys[] = {
+    "comment", "size", "mixing",        "step",   "step_mm", "phase", "termination",
+    "origin",  "skip", "supersampling", "jitter", "debug",   NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
@@ -21,7 +21,9 @@ static const char *const output_keys[] = {"comment", "file", "depth", "alpha", N
 // In the order of their enums.
 static const char *const mixing_names[] = {"sum", "over", NULL};
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
-static const char *const skip_names[] = {"auto", "none", "grid", "distance", NULL};
+static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", NULL};
+static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
+                                          "work-group", "work-item", "time",  NULL};
 static const char *const pattern_names[] = {"regular",        "jittered",   "n-rooks",
                                             "multi-jittered", "hammersley", NULL};
 static const char *const reconstruction_names[] = {"box", "gaussian", NULL};
@@ -80,6 +82,17 @@ static bool read_size(struct pel_render_settings *render, const struct pel_scene
     return true;
 }
 
+bool pel_scene_read_step(const struct pel_scene_node *object, double *step, double *step_mm) {
+    const struct pel_range range = {.low = 0.001, .high = 1000};
+    struct pel_scene_node voxels, millimetres;
+    bool both = pel_node_member(&voxels, object, "step") &&
+                pel_node_member(&millimetres, object, "step_mm");
+    if (both)
+        return pel_node_fail(&millimetres, "stands beside 'step', which says the same in voxels");
+    return pel_node_get_number(object, "step", &range, step) &&
+           pel_node_get_number(object, "step_mm", &pel_positive_number, step_mm);
+}
+
 static bool read_supersampling(struct pel_supersampling *supersampling,
                                const struct pel_scene_node *render) {
     struct pel_scene_node node;
@@ -103,22 +116,24 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
     struct pel_scene_node node;
     if (!pel_node_member(&node, scene, "render"))
         return true;
-    const struct pel_range step_range = {.low = 0.001, .high = 1000};
     const struct pel_range termination_range = {.low = 0, .high = 1, .low_open = true};
     int mixing = (int)render->mixing, origin = (int)render->origin, skip = (int)render->skip;
+    int debug = (int)render->debug;
     bool good =
         pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
         pel_node_get_name(&node, "mixing", mixing_names, &mixing) &&
-        pel_node_get_number(&node, "step", &step_range, &render->step) &&
+        pel_scene_read_step(&node, &render->step, &render->step_mm) &&
         pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
         pel_node_get_number(&node, "termination", &termination_range, &render->termination) &&
         pel_node_get_name(&node, "origin", origin_names, &origin) &&
         pel_node_get_name(&node, "skip", skip_names, &skip) &&
         read_supersampling(&render->supersampling, &node) &&
-        pel_node_get_bool(&node, "jitter", &render->jitter);
+        pel_node_get_bool(&node, "jitter", &render->jitter) &&
+        pel_node_get_name(&node, "debug", debug_names, &debug);
     render->mixing = (enum pel_mixing)mixing;
     render->origin = (enum pel_sample_origin)origin;
     render->skip = (enum pel_skip)skip;
+    render->debug = (enum pel_debug)debug;
     return good;
 }
 

@@ -63,7 +63,7 @@ struct pel_scene_source *pel_scene_source_create(const struct pel_scene_document
 }
 
 void pel_scene_source_destroy(struct pel_scene_source *source) {
-    if (!source)
+    if (!source || __atomic_fetch_sub(&source->shares, 1, __ATOMIC_ACQ_REL) > 0)
         return;
     for (int i = 0; i < source->document.override_count; i++)
         free((char *)source->document.overrides[i]);
@@ -71,8 +71,11 @@ void pel_scene_source_destroy(struct pel_scene_source *source) {
     free((char *)source->document.path);
     free((char *)source->document.text);
     json_decref(source->root);
-    if (source->plan)
-        pel_scene_plan_finish(source->plan);
-    free(source->plan);
     free(source);
+}
+
+struct pel_scene_source *pel_scene_source_share(struct pel_scene_source *source) {
+    if (source)
+        __atomic_fetch_add(&source->shares, 1, __ATOMIC_RELAXED);
+    return source;
 }

@@ -10,7 +10,9 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "camera/camera.h"
+#include "world/brick.h"
 #include "world/lighting.h"
+#include "world/step.h"
 #include "world/strength.h"
 
 static float4 to_float4(const double v[3], double w) {
@@ -54,20 +56,6 @@ static bool fill_camera(struct camera *out, const struct pel_camera *camera,
         out->up = to_float4(upward, 0);
     }
     return true;
-}
-
-// The smallest distance of neighbouring voxels over all visible instances.
-static double finest_spacing(const struct pel_scene *scene) {
-    double finest = INFINITY;
-    for (int k = 0; k < scene->instance_count; k++) {
-        if (scene->instances[k].hidden)
-            continue;
-        double spacing[3];
-        pel_volume_spacing(scene->volumes[scene->instances[k].volume], spacing);
-        for (int i = 0; i < 3; i++)
-            finest = fmin(finest, spacing[i]);
-    }
-    return isfinite(finest) ? finest : 1;
 }
 
 // What has to be added to a stored voxel to have the file's raw one: signed integers are stored
@@ -130,8 +118,6 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         part->box_high = to_float4(high, 0);
         part->memory_from_voxel = to_float4(shift, 0);
         part->atlas_from_memory = to_float4(origin, 0);
-        part->row = volume->dims[0] + 2;
-        part->slice = (volume->dims[0] + 2) * (volume->dims[1] + 2);
         part->buffer = slab->buffer;
         part->offset = (u32)(slab->offset_bytes / pel_voxel_class_bytes(slab->class_index));
         part->voxels = 1 << slab->class_index;
@@ -141,6 +127,8 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         pel_slab_dims(slab, volume, stored);
         part->memory_high =
             (float4){(float)stored[0] - 1.5F, (float)stored[1] - 1.5F, (float)stored[2] - 1.5F, 0};
+        part->brick_row = (i32)pel_brick_count(stored[0]);
+        part->brick_slice = part->brick_row * (i32)pel_brick_count(stored[1]);
         part->cell_row = (i32)pel_grid_cells(stored[0]);
         part->cell_slice = part->cell_row * (i32)pel_grid_cells(stored[1]);
         part->cells = (u32)world->cell_count;
@@ -243,7 +231,7 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->background =
         (float4){(float)(scene->background[0] * alpha), (float)(scene->background[1] * alpha),
                  (float)(scene->background[2] * alpha), (float)alpha};
-    bytes->step_mm = (float)(settings->step * finest_spacing(scene));
+    bytes->step_mm = (float)pel_step_of_scene(scene);
     bytes->phase = (float)settings->phase;
     bytes->termination = settings->termination < 1 ? (float)settings->termination : 2;
     bytes->origin_bounds = settings->origin == PEL_ORIGIN_BOUNDS;
@@ -257,6 +245,8 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->reconstruction = (i32)supersampling->filter;
     bytes->seed = supersampling->seed;
     bytes->contrast = (float)supersampling->adaptive;
+    bytes->debug =
+        (i32)settings->debug; // the numbers of shared/variant.h are in the order of the enum
 }
 
 static bool fill_instances(struct pel_world *world, const struct pel_scene *scene,
@@ -267,6 +257,8 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (instance->hidden)
             continue;
         struct part pattern = {0};
+        pattern.step_mm = (float)pel_step_of_instance(scene, instance);
+        pattern.density = (float)instance->density;
         pattern.filter = instance->filter == PEL_FILTER_NEAREST ? FILTERS_NEAREST : FILTERS_LINEAR;
         world->filters |= pattern.filter;
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
@@ -297,7 +289,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
         !pel_lighting_fill_lamps(&world->bytes, scene, centre))
         return false;
 
-    world->supersampling = is_supersampled(&scene->render.supersampling);
+    world->supersampling = !scene->render.debug && is_supersampled(&scene->render.supersampling);
     world->jitter = scene->render.jitter;
     world->mixing = scene->render.mixing == PEL_MIX_SUM ? MIXING_SUM : MIXING_OVER;
     struct pel_table tables[PEL_VOLUME_MAX] = {{0}};

@@ -11,7 +11,11 @@
 // No distance is larger than this, in cells.
 #define CELL_DISTANCE_MAX 63
 
-// Which pass over the cells finds the empty ones; 0, 1 and 2 spread distances along x, y and z.
+// Which pass over the cells finds the empty ones; 0, 1 and 2 spread distances along x, y and z. For an octree, pass
+// PASS_MERGE + l joins eight empty nodes of level l - 1 to one of level l, in the node's first cell, and PASS_NAME tells
+// every cell of the largest node that it lies in.
 #define PASS_OCCUPY 3
+#define PASS_NAME 4
+#define PASS_MERGE 16
 
 #endif

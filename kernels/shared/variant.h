@@ -26,6 +26,17 @@
 #define SKIP_NONE 0     // not at all
 #define SKIP_GRID 1     // cell by cell
 #define SKIP_DISTANCE 2 // by the distance to the nearest cell with something in it
+#define SKIP_OCTREE 3   // by the nodes of an octree
+
+// Of a part: how light is gathered in it (docs/picture.md, "Optical models").
+#define MODEL_ABSORPTION 0
+#define MODEL_PREINTEGRATED 1 // absorption between samples, from a table of pairs of values
+#define MODEL_EMISSION 2
+#define MODEL_MIP 3
+#define MODEL_MINIP 4
+#define MODEL_AVERAGE 5
+#define MODEL_ISO 6
+#define MODEL_THESIS 7
 
 // Of a part: how it is shaded. The knob SHADING is 1 when any part is.
 #define SHADING_NONE 0
@@ -41,6 +52,15 @@
 #define LAMP_DIRECTIONAL 1 // one direction
 #define LAMP_POINT 2       // one place
 #define LAMP_MAX 8
+
+// What a debug view shows of each ray (kernels/debug.cl). The knob DEBUG is 1 when the device counts.
+#define DEBUG_NONE 0
+#define DEBUG_SAMPLES 1    // samples taken
+#define DEBUG_SPANS 2      // spans with a constant set of parts
+#define DEBUG_PARTS 3      // parts crossed: depth complexity
+#define DEBUG_WORK_GROUP 4 // which work-group made the pixel
+#define DEBUG_WORK_ITEM 5  // which work-item of its group
+#define DEBUG_TIME 6       // milliseconds of the pixel's tile, by the host's clock
 
 // Pixels along a side of the square tiles in which work is handed out.
 #define TILE_PX 16

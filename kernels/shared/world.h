@@ -49,7 +49,7 @@ struct part {
     float table_last;           // the last entry's index
     u32 table;                  // index of the table's first word
     u32 offset;                 // element of voxel memory (0,0,0) in its buffer
-    i32 row, slice;             // elements from one row and slice to the next
+    i32 brick_row, brick_slice; // bricks from one row and slice of them to the next (shared/brick.h)
     i32 buffer;                 // which voxel buffer
     i32 voxels;                 // one of VOXELS_*
     i32 filter;                 // one of FILTERS_*
@@ -62,9 +62,15 @@ struct part {
     float spacing_mm;           // of the nearest voxels
     i32 shading;                // one of SHADING_*
     i32 one_sided;              // 1: light comes only from where the normal points
+    float4 surface_values;      // model iso: of its surfaces, as places in the table, ascending
+    float4 surfaces[4];         // their straight colours and opacities
+    i32 surface_count;          //
+    i32 model;                  // one of MODEL_*
+    float step_mm;              // the distance of its samples where it has a grid of its own
+    float density;              //
 };
 
-SHARED_ASSERT(sizeof(struct part) == 224, part_size);
+SHARED_ASSERT(sizeof(struct part) == 320, part_size);
 
 struct world {
     struct camera camera;
@@ -83,11 +89,12 @@ struct world {
     u32 seed;           // of all random choices
     float contrast;     // between neighbours, beyond which a pixel takes all its rays; 0: all do
     i32 lamp_count;
-    i32 pad[2];
+    i32 debug; // one of DEBUG_*
+    i32 pad[1];
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
 };
 
-SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 224 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 320 * WORLD_PART_MAX, world_size);
 
 #endif

@@ -1,10 +1,11 @@
 // scenes.c - every scene of scenes/ is a picture test: rendered small, it has to agree with the
-// reference.
+// reference. The scenes take the ways to skip in turns.
 #include <dirent.h>
 
 #include "support/judge.h"
 #include "support/scenes.h"
 #include "support/test.h"
+#include "support/ways.h"
 
 static int is_scene(const struct dirent *entry) {
     const char *dot = strrchr(entry->d_name, '.');
@@ -35,6 +36,7 @@ static void test_scenes(void **state) {
     for (int i = 0; i < count; i++) {
         struct pel_scene *scene = load_small(entries[i]->d_name);
         struct pel_render_statistics statistics;
+        scene->render.skip = way_of((uint64_t)i + 1);
         pel_image_destroy(judge_render(buffers, scene, &statistics, entries[i]->d_name));
         assert_true(statistics.samples > 0);
         has_images = i > 0 ? has_images : judge_has_images(images, scene);

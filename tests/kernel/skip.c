@@ -1,9 +1,16 @@
 // skip.c - however empty space is skipped, the picture is the same, from fewer samples.
+//
+// With PELLUCID_TEST_ALL every scene of scenes/ is rendered in every way with every number of
+// lanes, which takes minutes, nearly all of them for compiling; otherwise kernel.scenes and
+// kernel.random, which compare with the reference, each take one of the ways.
+#include <dirent.h>
+
 #include "base/math.h"
 #include "support/judge.h"
 #include "support/picture.h"
 #include "support/scenes.h"
 #include "support/test.h"
+#include "support/ways.h"
 
 // Waves of which only the crests can be seen, turned, so that rays cross cells every way.
 static struct pel_scene *scene_of_crests(void) {
@@ -23,33 +30,81 @@ static struct pel_scene *scene_of_crests(void) {
     return scene;
 }
 
+// Renders a scene in every way and expects the picture of the first. Counts the samples of each.
+static void compare_ways(struct pel_renderer *renderer, struct pel_scene *scene, const char *title,
+                         uint64_t samples[WAYS]) {
+    struct pel_image *first = NULL;
+    for (int n = 0; n < WAYS; n++) {
+        struct pel_render_statistics statistics;
+        scene->render.skip = ways[n].skip;
+        struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, &statistics);
+        if (!picture)
+            fail_msg("%s, %s: %s", title, ways[n].name, pel_error_message());
+        samples[n] = statistics.samples;
+        if (!first) {
+            first = picture;
+            continue;
+        }
+        char text[1100];
+        snprintf(text, sizeof text, "%s, %s, %d lanes", title, ways[n].name, statistics.lanes);
+        assert_pictures_equal(picture, first, text);
+        pel_image_destroy(picture);
+    }
+    pel_image_destroy(first);
+}
+
 static void test_same_picture(void **state) {
     (void)state;
-    static const enum pel_skip skips[] = {PEL_SKIP_NONE, PEL_SKIP_GRID, PEL_SKIP_DISTANCE};
     for (int lanes = 1; lanes <= 4; lanes += 3) {
         struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, lanes);
         struct pel_scene *scene = scene_of_crests();
-        struct pel_image *pictures[3];
-        uint64_t samples[3];
-        for (int n = 0; n < 3; n++) {
-            struct pel_render_statistics statistics;
-            scene->render.skip = skips[n];
-            pictures[n] = judge_render(renderer, scene, &statistics,
-                                       (const char *[]){"none", "grid", "distance"}[n]);
-            samples[n] = statistics.samples;
-        }
-        assert_pictures_within(pictures[1], pictures[0], 0.01, 0, "cell by cell");
-        assert_pictures_within(pictures[2], pictures[0], 0.01, 0, "by distance");
-        assert_true(samples[1] < samples[0] * 3 / 4);
-        assert_true(samples[2] <= samples[1]);
-        for (int n = 0; n < 3; n++)
-            pel_image_destroy(pictures[n]);
+        uint64_t samples[WAYS];
+        compare_ways(renderer, scene, "crests", samples);
+        for (int n = 1; n < WAYS; n++)
+            assert_true(samples[n] < samples[0] * 3 / 4);
+        pel_image_destroy(judge_render(renderer, scene, NULL, "crests"));
         pel_scene_destroy(scene);
         pel_renderer_destroy(renderer);
     }
 }
 
+static int is_scene(const struct dirent *entry) {
+    const char *dot = strrchr(entry->d_name, '.');
+    return dot && strcmp(dot, ".json") == 0 && !strstr(entry->d_name, ".schema.");
+}
+
+// Every scene of scenes/ with every number of lanes.
+static void test_all_scenes(void **state) {
+    (void)state;
+    if (!getenv("PELLUCID_TEST_ALL"))
+        skip();
+    struct dirent **entries;
+    int count = scandir(TEST_SOURCE "/scenes", &entries, is_scene, alphasort);
+    assert_true(count > 0);
+    for (int lanes = 1; lanes <= 16; lanes = lanes == 1 ? 4 : 2 * lanes) {
+        struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, lanes);
+        for (int i = 0; i < count; i++) {
+            char path[1024];
+            uint64_t samples[WAYS];
+            const char *sizes[] = {"render.size=[64,48]"};
+            snprintf(path, sizeof path, "%s/scenes/%s", TEST_SOURCE, entries[i]->d_name);
+            struct pel_scene *scene = pel_scene_load(path, sizes, 1);
+            if (!scene)
+                fail_msg("%s", pel_error_message());
+            compare_ways(renderer, scene, entries[i]->d_name, samples);
+            pel_scene_destroy(scene);
+        }
+        pel_renderer_destroy(renderer);
+    }
+    for (int i = 0; i < count; i++)
+        free(entries[i]);
+    free(entries);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_picture)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_same_picture),
+        cmocka_unit_test(test_all_scenes),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,6 +34,16 @@ static double least_spacing(const struct reference_body *body) {
     return least;
 }
 
+// What the body asks for: its own step before the scene's, millimetres before voxels.
+static double step_of(const struct pel_scene *scene, const struct reference_body *body) {
+    double step_mm = body->instance->step_mm, step = body->instance->step;
+    if (step_mm == 0 && step == 0) {
+        step_mm = scene->render.step_mm;
+        step = scene->render.step;
+    }
+    return step_mm > 0 ? step_mm : step * least_spacing(body);
+}
+
 static void include_corners(struct reference *reference, const struct reference_body *body) {
     for (int n = 0; n < 8; n++) {
         double corner[3];
@@ -64,7 +74,7 @@ struct reference *reference_create(const struct pel_scene *scene) {
         struct reference_body *body = &reference->bodies[reference->body_count++];
         init_body(body, scene, &scene->instances[i]);
         include_corners(reference, body);
-        reference->step_mm = fmin(reference->step_mm, scene->render.step * least_spacing(body));
+        reference->step_mm = fmin(reference->step_mm, step_of(scene, body));
     }
     return reference;
 }

@@ -6,4 +6,4 @@ command -v clang-format >/dev/null || { echo "skipped: clang-format is not insta
 version=$(clang-format --version | sed -E 's/.*version ([0-9]+).*/\1/')
 # Other versions break lines differently; 14 is what Debian 12 has.
 [ "$version" -eq 14 ] || { echo "skipped: clang-format is version $version, not 14"; exit 77; }
-find host tests -name '*.[ch]' -print0 | xargs -0 clang-format --dry-run -Werror
+find host tests \( -name '*.[ch]' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run -Werror

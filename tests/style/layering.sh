@@ -15,7 +15,8 @@ declare -A below=(
     [accel]="volume transfer"
     [world]="volume transfer camera accel"
     [render]="device world accel camera"
-    [cli]=""
+    [viewer]=""
+    [cli]="viewer"
 )
 
 # Which files may include which library.
@@ -26,10 +27,12 @@ declare -A library=(
     ["expat\.h"]='host/volume/tiff'
     ["nifti"]='host/volume/nifti'
     ["teem/"]='host/volume/nrrd'
-    ["jansson\.h"]='host/base/|host/transfer/|host/world/(scene|recipe)|host/volume/(raw|sidecar)|host/cli/'
+    ["jansson\.h"]='host/base/|host/transfer/|host/world/(scene|recipe)|host/volume/(raw|sidecar)|host/cli/|host/viewer/'
     ["argp\.h"]='host/cli/'
-    ["GLFW|epoxy"]='^$'
-    ["pthread\.h|threads\.h"]='host/(render|base|volume)/'
+    ["GLFW/"]='host/viewer/window\.c'
+    ["epoxy/|GL/"]='host/viewer/present\.c'
+    ["imgui"]='host/viewer/widget\.cpp'
+    ["pthread\.h|threads\.h"]='host/(render|base|volume|viewer)/'
 )
 
 for folder in host/*/; do
@@ -38,20 +41,20 @@ for folder in host/*/; do
         complain "host/$module: not in the table of modules"
         continue
     fi
-    # The command line is a client of the library and sees nothing of its inside.
+    # The command line and the viewer are clients of the library and see nothing of its inside.
     allowed="$module base shared ${below[$module]}"
-    [ "$module" = cli ] && allowed=cli
+    [[ "$module" =~ ^(cli|viewer)$ ]] && allowed="$module ${below[$module]}"
     while IFS=: read -r file line other; do
         case " $allowed " in
         *" $other "*) ;;
         *) complain "$file:$line: $module may not include $other/" ;;
         esac
-    done < <(grep -nE '^ *# *include "[a-z_]+/' "$folder"*.[ch] /dev/null | sed -E 's|^([^:]+:[0-9]+):.*"([a-z_]+)/.*|\1:\2|')
+    done < <(grep -nE '^ *# *include "[a-z_]+/' "$folder"*.[ch]* /dev/null | sed -E 's|^([^:]+:[0-9]+):.*"([a-z_]+)/.*|\1:\2|')
 done
 
 for header in "${!library[@]}"; do
     while IFS=: read -r file line _; do
         [[ "$file" =~ ${library[$header]} ]] || complain "$file:$line: $header is not for this file"
-    done < <(grep -rnE "^ *# *include <($header)" host --include='*.[ch]' || true)
+    done < <(grep -rnE "^ *# *include <($header)" host --include='*.[ch]' --include='*.cpp' || true)
 done
 exit $failed

@@ -13,6 +13,6 @@ check() {
         fi
     done
 }
-check 500 < <(find host tests \( -name '*.[ch]' -o -name '*.sh' \) ! -path host/pellucid.h)
+check 500 < <(find host tests \( -name '*.[ch]' -o -name '*.cpp' -o -name '*.sh' \) ! -path host/pellucid.h)
 check 250 < <(find kernels \( -name '*.cl' -o -name '*.h' \) 2>/dev/null)
 exit $failed

@@ -186,6 +186,32 @@ static void test_resampling(void **state) {
     destroy_all(pictures[0], pictures[1], scene_create(1, 1));
 }
 
+// A step in millimetres, or of one volume, is the same grid of samples said otherwise.
+static void test_steps_said_otherwise(void **state) {
+    (void)state;
+    struct pel_scene *scene = scene_random(3, true);
+    double least = INFINITY;
+    for (int k = 0; k < scene->instance_count; k++) {
+        double spacing[3];
+        pel_volume_spacing(scene->volumes[scene->instances[k].volume], spacing);
+        least = fmin(least, fmin(spacing[0], fmin(spacing[1], spacing[2])));
+    }
+    scene->render.step = 0.75;
+    struct pel_image *expected = reference_render(scene);
+    scene->render.step = 5; // millimetres come before voxels
+    scene->render.step_mm = 0.75 * least;
+    struct pel_image *picture = reference_render(scene);
+    assert_pictures_within(picture, expected, 1e-6, 0, "millimetres");
+    pel_image_destroy(picture);
+    scene->render.step_mm = 100; // and the finest volume decides
+    scene->instances[0].step_mm = 0.75 * least;
+    picture = reference_render(scene);
+    assert_pictures_within(picture, expected, 1e-6, 0, "of one volume");
+    pel_image_destroy(picture);
+    pel_image_destroy(expected);
+    pel_scene_destroy(scene);
+}
+
 // Halving the step brings the picture nearer to the truth: the error of one ray is up to a sample
 // at each end, so the whole picture's converges with the step.
 static void test_step_converges(void **state) {
@@ -363,6 +389,7 @@ int main(void) {
         cmocka_unit_test(test_voxel_type),
         cmocka_unit_test(test_resampling),
         cmocka_unit_test(test_step_converges),
+        cmocka_unit_test(test_steps_said_otherwise),
         cmocka_unit_test(test_scale),
         cmocka_unit_test(test_cut_in_two),
         cmocka_unit_test(test_density),

@@ -49,6 +49,8 @@ static const struct {
      "bad.json:2:2: render.stop: unknown key; did you mean 'step'"},
     {"{'render': {'step': 0}, " TEST_VOLUMES "}",
      "bad.json:1:13: render.step: must be at least 0.001 and at most 1000, not 0"},
+    {"{'render': {'step': 1, 'step_mm': 1}, " TEST_VOLUMES "}",
+     "bad.json:1:24: render.step_mm: stands beside 'step', which says the same in voxels"},
     {"{'render': {'phase': '\u00fc', 'step': 1}, " TEST_VOLUMES "}",
      "bad.json:1:13: render.phase: must be a number, not \"\u00fc\""},
     {"{'render': {'termination': 0}, " TEST_VOLUMES "}",

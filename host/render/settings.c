@@ -1,0 +1,38 @@
+// settings.c - whether a scene's settings make sense.
+#include "render/settings.h"
+
+#include "base/error.h"
+#include "world/step.h"
+
+enum { PICTURE_MAX = 32768 };
+
+static bool check_supersampling(const struct pel_supersampling *supersampling) {
+    if (supersampling->n < 0 || supersampling->n > PEL_SUPERSAMPLING_MAX)
+        return pel_fail(PEL_ERROR_ARGUMENT, "supersampling with n = %d, outside 0..%d",
+                        supersampling->n, PEL_SUPERSAMPLING_MAX);
+    if ((unsigned)supersampling->pattern > PEL_PATTERN_HAMMERSLEY ||
+        (unsigned)supersampling->filter > PEL_RECONSTRUCTION_GAUSSIAN)
+        return pel_fail(PEL_ERROR_ARGUMENT, "supersampling with pattern %d and filter %d",
+                        (int)supersampling->pattern, (int)supersampling->filter);
+    if (!(supersampling->adaptive >= 0))
+        return pel_fail(PEL_ERROR_ARGUMENT, "adaptive supersampling beyond %g, must be at least 0",
+                        supersampling->adaptive);
+    return true;
+}
+
+bool pel_settings_check(const struct pel_scene *scene) {
+    const struct pel_render_settings *settings = &scene->render;
+    if (settings->width < 1 || settings->height < 1 || settings->width > PICTURE_MAX ||
+        settings->height > PICTURE_MAX)
+        return pel_fail(PEL_ERROR_ARGUMENT, "picture of %d x %d pixels, outside 1..%d",
+                        settings->width, settings->height, PICTURE_MAX);
+    if (!pel_step_check(scene))
+        return false;
+    if (!(settings->phase >= 0 && settings->phase <= 1))
+        return pel_fail(PEL_ERROR_ARGUMENT, "phase %g, outside 0..1", settings->phase);
+    if (!(settings->termination >= 0 && settings->termination <= 1))
+        return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
+    if ((unsigned)settings->debug > PEL_DEBUG_TIME)
+        return pel_fail(PEL_ERROR_ARGUMENT, "debug view %d", (int)settings->debug);
+    return check_supersampling(&settings->supersampling);
+}

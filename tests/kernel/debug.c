@@ -1,0 +1,123 @@
+// debug.c - debug views: their numbers are those that geometry demands.
+#include <stdlib.h>
+
+#include "support/judge.h"
+#include "support/scenes.h"
+#include "support/test.h"
+
+enum { WIDTH = 24, HEIGHT = 16, PIXELS = WIDTH * HEIGHT };
+
+// Two boxes of 10 mm that overlap by half along the view and along x, in a parallel view of 16 mm:
+// 1 mm is 1 pixel. The left one reaches over x = -7.5 .. 2.5 and z = -7.5 .. 2.5, the right one
+// over -2.5 .. 7.5 of both.
+static struct pel_scene *two_boxes(void) {
+    struct pel_scene *scene = scene_create(WIDTH, HEIGHT);
+    scene_view_parallel(scene, HEIGHT);
+    const double faint[4] = {1, 1, 1, 0.01};
+    int dims[3] = {10, 10, 10};
+    scene_add(scene, scene_volume_constant(dims, PEL_VOXEL_U8, 100),
+              scene_transfer_constant(faint));
+    scene_add_again(scene, 0, scene_transfer_constant(faint));
+    for (int k = 0; k < 2; k++)
+        for (int axis = 0; axis < 3; axis += 2)
+            scene->instances[k].transform.m[axis][3] = k == 0 ? -2.5 : 2.5;
+    scene->render.skip = PEL_SKIP_NONE;
+    return scene;
+}
+
+// The numbers of a view, one a pixel. The caller frees them.
+static float *show(struct pel_renderer *renderer, struct pel_scene *scene, enum pel_debug view,
+                   struct pel_render_statistics *statistics) {
+    float *numbers = calloc(PIXELS, sizeof *numbers);
+    assert_non_null(numbers);
+    scene->render.debug = view;
+    const struct pel_render_options options = {.numbers = numbers};
+    struct pel_image *image = pel_renderer_render(renderer, scene, &options, statistics);
+    assert_non_null(image);
+    double sum = 0, greatest = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        sum += numbers[i];
+        greatest = numbers[i] > greatest ? numbers[i] : greatest;
+        // What there is nothing of is black, and everything is opaque.
+        const float *rgba = &image->rgba[4 * i];
+        assert_true(rgba[3] == 1);
+        if (view < PEL_DEBUG_WORK_GROUP)
+            assert_true((rgba[0] + rgba[1] + rgba[2] == 0) == (numbers[i] == 0));
+    }
+    assert_true(statistics->debug.max == greatest);
+    assert_float_equal(statistics->debug.mean, sum / PIXELS, 1e-6 * greatest);
+    pel_image_destroy(image);
+    return numbers;
+}
+
+// In the middle row: beside the boxes, in the left one only, in both, in the right one only.
+static void check_row(const float *numbers, const double expected[4]) {
+    static const int x[4] = {2, 6, 12, 17};
+    const float *row = &numbers[HEIGHT / 2 * WIDTH];
+    for (int i = 0; i < 4; i++)
+        assert_float_equal(row[x[i]], expected[i], 0);
+}
+
+static void test_counts(void **state) {
+    (void)state;
+    const int lanes[2] = {1, judge_packet_lanes()};
+    for (int l = 0; l < 2; l++) {
+        struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, lanes[l]);
+        struct pel_scene *scene = two_boxes();
+        struct pel_render_statistics statistics;
+        float *numbers = show(renderer, scene, PEL_DEBUG_SAMPLES, &statistics);
+        // Steps of half a millimetre.
+        check_row(numbers, (double[]){0, 20, 40, 20});
+        assert_float_equal(statistics.debug.mean * PIXELS, (double)statistics.samples, 1e-3);
+        free(numbers);
+        // The left box, both, the right one.
+        numbers = show(renderer, scene, PEL_DEBUG_SPANS, &statistics);
+        check_row(numbers, (double[]){0, 1, 3, 1});
+        free(numbers);
+        numbers = show(renderer, scene, PEL_DEBUG_VOLUMES, &statistics);
+        check_row(numbers, (double[]){0, 1, 2, 1});
+        free(numbers);
+        // One behind the other, without touching: a gap of nothing is no span.
+        scene->instances[0].transform.m[2][3] = -10;
+        scene->instances[1].transform.m[2][3] = 10;
+        numbers = show(renderer, scene, PEL_DEBUG_SPANS, &statistics);
+        check_row(numbers, (double[]){0, 1, 2, 1});
+        free(numbers);
+        pel_scene_destroy(scene);
+        pel_renderer_destroy(renderer);
+    }
+}
+
+// Each work-item makes one packet of pixels, and each tile is launched on its own to be timed.
+static void test_what_made_a_pixel(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 4);
+    struct pel_scene *scene = two_boxes();
+    struct pel_render_statistics statistics;
+    float *groups = show(renderer, scene, PEL_DEBUG_WORK_GROUP, &statistics);
+    float *items = show(renderer, scene, PEL_DEBUG_WORK_ITEM, &statistics);
+    assert_true(statistics.debug.max < statistics.work_group);
+    for (int i = 0; i < PIXELS; i++) {
+        int same = 0;
+        for (int j = 0; j < PIXELS; j++)
+            same += groups[i] == groups[j] && items[i] == items[j];
+        assert_int_equal(same, statistics.lanes);
+    }
+    float *times = show(renderer, scene, PEL_DEBUG_TIME, &statistics);
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            assert_true(times[y * WIDTH + x] > 0);
+            assert_true(times[y * WIDTH + x] == times[x / 16 * 16]);
+        }
+    free(groups);
+    free(items);
+    free(times);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts),
+                                       cmocka_unit_test(test_what_made_a_pixel)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
