@@ -11,6 +11,7 @@
 
 static const struct command commands[] = {
     {"render", "render a scene, or volumes, to a picture", command_render},
+    {"view", "explore a scene, or volumes, in a window", command_view},
     {"info", "say what is in volume and scene files", command_info},
     {"devices", "list the OpenCL devices and what Pellucid would choose", command_devices},
     {"convert", "crop, resample and rewrite a volume", command_convert},

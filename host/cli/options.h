@@ -14,6 +14,7 @@ struct command {
 };
 
 int command_render(int argc, char **argv);
+int command_view(int argc, char **argv);
 int command_info(int argc, char **argv);
 int command_devices(int argc, char **argv);
 int command_convert(int argc, char **argv);

@@ -23,8 +23,8 @@
 #include "render/variant.h"
 #include "shared/pattern.h"
 
-// A batch of tiles should take about this long.
-static const double batch_ms = 150;
+// A batch of tiles should take about this long unless the caller says otherwise.
+static const double batch_default_ms = 150;
 
 struct pel_renderer {
     struct pel_device *device;
@@ -159,6 +159,7 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
                       struct pass pass) {
     enum { FIRST_BATCH = 64 };
     double start = now_ms(), mark = start;
+    double batch_ms = options && options->batch_ms > 0 ? options->batch_ms : batch_default_ms;
     double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms : FIRST_BATCH;
     for (size_t tile = 0; tile < extent->tiles;) {
         size_t left = extent->tiles - tile;

@@ -1,0 +1,198 @@
+// hand.c - what mouse and keyboard do to the picture.
+#include "viewer/hand.h"
+
+#include <math.h>
+
+#include "viewer/command.h"
+#include "viewer/keys.h"
+
+// While a key is held: distances of the target, and degrees, each second.
+static const double move_per_s = 0.5, turn_deg_per_s = 60, closer_per_s = 0.7;
+
+// A key that was only touched still does something.
+static const double touch_s = 0.05;
+
+static int find_view(const struct pel_state *state, int window, double x, double y) {
+    for (int i = 0; i < state->view_count; i++) {
+        const struct pel_rectangle *place = &state->views[i].place;
+        if (state->views[i].window == window && x >= place->x && x < place->x + place->width &&
+            y >= place->y && y < place->y + place->height)
+            return i;
+    }
+    return -1;
+}
+
+static void place_in_view(const struct pel_state *state, int view, const struct pel_event *event,
+                          double px[2]) {
+    px[0] = event->x - state->views[view].place.x;
+    px[1] = event->y - state->views[view].place.y;
+}
+
+// ---- The mouse ---------------------------------------------------------------------------------
+
+static void begin_drag(struct pel_state *state, const struct pel_event *event) {
+    int view = find_view(state, event->window, event->x, event->y);
+    if (view < 0)
+        return;
+    bool shift = event->modifiers & PEL_SHIFT;
+    pel_state_begin_gesture(state);
+    state->drag_view = view;
+    place_in_view(state, view, event, state->drag_px);
+    pel_navigation_begin(&state->navigation);
+    switch (event->button) {
+    case PEL_BUTTON_LEFT:
+        state->drag = PEL_DRAG_TURN;
+        break;
+    case PEL_BUTTON_RIGHT:
+        state->drag = shift ? PEL_DRAG_TILT : PEL_DRAG_PAN;
+        break;
+    default:
+        state->drag = PEL_DRAG_ZOOM;
+        break;
+    }
+}
+
+static void drag(struct pel_state *state, const struct pel_event *event) {
+    double to_px[2];
+    const struct pel_rectangle *place = &state->views[state->drag_view].place;
+    const int size[2] = {place->width, place->height};
+    place_in_view(state, state->drag_view, event, to_px);
+    switch (state->drag) {
+    case PEL_DRAG_TURN:
+        pel_navigation_rotate(&state->navigation, size, state->drag_px, to_px);
+        break;
+    case PEL_DRAG_PAN:
+        pel_navigation_pan(&state->navigation, size, state->drag_px, to_px);
+        break;
+    case PEL_DRAG_ZOOM:
+        pel_navigation_zoom(&state->navigation, size, state->drag_px, to_px);
+        break;
+    case PEL_DRAG_TILT:
+        pel_navigation_roll(&state->navigation, size, state->drag_px, to_px);
+        break;
+    default:
+        return;
+    }
+    pel_state_move_camera(state);
+    for (int i = 0; i < 2; i++)
+        state->drag_px[i] = to_px[i];
+}
+
+static void wheel(struct pel_state *state, const struct pel_event *event) {
+    int view = find_view(state, event->window, event->x, event->y);
+    if (view < 0)
+        return;
+    double at_px[2];
+    const struct pel_rectangle *place = &state->views[view].place;
+    const int size[2] = {place->width, place->height};
+    place_in_view(state, view, event, at_px);
+    pel_navigation_wheel(&state->navigation, size, at_px, event->wheel);
+    pel_state_move_camera(state);
+}
+
+// ---- The keyboard ------------------------------------------------------------------------------
+
+static double direction(uint32_t held, enum pel_action plus, enum pel_action minus) {
+    return (held >> plus & 1) - (double)(held >> minus & 1);
+}
+
+// Does what the held keys do in that time.
+static void move(struct pel_state *state, uint32_t held, double seconds) {
+    struct pel_navigation *navigation = &state->navigation;
+    double along[3] = {direction(held, PEL_ACTION_RIGHT, PEL_ACTION_LEFT),
+                       direction(held, PEL_ACTION_UP, PEL_ACTION_DOWN),
+                       direction(held, PEL_ACTION_FORWARD, PEL_ACTION_BACK)};
+    double right = direction(held, PEL_ACTION_TURN_RIGHT, PEL_ACTION_TURN_LEFT);
+    double up = direction(held, PEL_ACTION_TURN_UP, PEL_ACTION_TURN_DOWN);
+    double tilt = direction(held, PEL_ACTION_TILT_RIGHT, PEL_ACTION_TILT_LEFT);
+    double closer = direction(held, PEL_ACTION_CLOSER, PEL_ACTION_AWAY);
+    for (int i = 0; i < 3; i++)
+        along[i] *= move_per_s * seconds;
+    if (along[0] != 0 || along[1] != 0 || along[2] != 0)
+        pel_navigation_move(navigation, along);
+    if (right != 0 || up != 0)
+        pel_navigation_turn(navigation, right * turn_deg_per_s * seconds,
+                            up * turn_deg_per_s * seconds);
+    if (tilt != 0)
+        pel_navigation_tilt(navigation, tilt * turn_deg_per_s * seconds);
+    if (closer != 0) {
+        // A drag upwards over the height goes closer by a factor of e.
+        const double from_px[2] = {0, 100},
+                     to_px[2] = {0, 100 - 100 * closer * closer_per_s * seconds};
+        pel_navigation_zoom(navigation, (const int[2]){100, 100}, from_px, to_px);
+    }
+    pel_state_move_camera(state);
+}
+
+static void press(struct pel_state *state, const struct pel_event *event) {
+    int number = 0;
+    enum pel_action action = pel_keys_find(event->key, event->modifiers, &number);
+    if (action == PEL_ACTION_NONE)
+        return;
+    if (action >= PEL_ACTION_VIEW) {
+        if (!event->repeat)
+            pel_state_begin_gesture(state);
+        pel_command_do(state, action, number);
+        return;
+    }
+    if (event->repeat || state->held >> action & 1)
+        return;
+    if (!state->held)
+        pel_state_begin_gesture(state);
+    pel_navigation_begin(&state->navigation);
+    state->held |= 1u << action;
+    move(state, 1u << action, touch_s);
+}
+
+// Whatever is held with it now, the key is up.
+static void release(struct pel_state *state, const struct pel_event *event) {
+    for (int modifiers = 0; modifiers < 8; modifiers++) {
+        int number;
+        enum pel_action action = pel_keys_find(event->key, modifiers, &number);
+        if (action != PEL_ACTION_NONE && action < PEL_ACTION_VIEW)
+            state->held &= ~(1u << action);
+    }
+}
+
+// ---- Both --------------------------------------------------------------------------------------
+
+bool pel_hand_is_busy(const struct pel_state *state) {
+    return state->held || state->navigation.duration_s > 0;
+}
+
+void pel_hand_tick(struct pel_state *state, double seconds) {
+    if (state->held)
+        move(state, state->held, fmin(seconds, 0.1));
+    if (pel_navigation_tick(&state->navigation, seconds))
+        pel_state_move_camera(state);
+}
+
+void pel_hand_react(struct pel_state *state, const struct pel_event *event) {
+    switch (event->kind) {
+    case PEL_EVENT_POINTER:
+        state->pointer_px[0] = event->x;
+        state->pointer_px[1] = event->y;
+        state->pointer_window = event->window;
+        state->redraw = true;
+        if (state->drag != PEL_DRAG_NONE)
+            drag(state, event);
+        break;
+    case PEL_EVENT_BUTTON:
+        if (event->down && state->drag == PEL_DRAG_NONE)
+            begin_drag(state, event);
+        else if (!event->down)
+            state->drag = PEL_DRAG_NONE;
+        break;
+    case PEL_EVENT_WHEEL:
+        wheel(state, event);
+        break;
+    case PEL_EVENT_KEY:
+        if (event->down)
+            press(state, event);
+        else
+            release(state, event);
+        break;
+    default:
+        break;
+    }
+}

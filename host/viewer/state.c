@@ -1,0 +1,57 @@
+// state.c - what the viewer knows.
+#include "viewer/state.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <time.h>
+
+double pel_state_clock_ms(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
+}
+
+void pel_state_renew(struct pel_state *state) {
+    state->version++;
+    state->changed_ms = pel_state_clock_ms();
+    state->redraw = true;
+}
+
+void pel_state_change(struct pel_state *state, const char *what) {
+    if (!pel_history_record(state->history, state->scene, what, state->gesture))
+        pel_state_say(state, "this cannot be undone: %s", pel_error_message());
+    pel_state_renew(state);
+}
+
+void pel_state_begin_gesture(struct pel_state *state) {
+    pel_history_settle(state->history);
+    state->gesture++;
+}
+
+void pel_state_move_camera(struct pel_state *state) {
+    state->scene->camera = state->navigation.camera;
+    pel_state_change(state, "move the camera");
+}
+
+void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene) {
+    pel_scene_destroy(state->scene);
+    state->scene = scene;
+    if (state->selected >= scene->instance_count)
+        state->selected = scene->instance_count - 1;
+    pel_navigation_set(&state->navigation, &scene->camera);
+    pel_state_renew(state);
+}
+
+double pel_state_aspect(const struct pel_state *state) {
+    const struct pel_rectangle *place = &state->views[0].place;
+    return place->height > 0 ? (double)place->width / place->height : 1;
+}
+
+void pel_state_say(struct pel_state *state, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(state->message, sizeof state->message, format, arguments);
+    va_end(arguments);
+    state->message_ms = pel_state_clock_ms();
+    state->redraw = true;
+}

@@ -1,0 +1,97 @@
+// state.h - everything the viewer knows, shared by the files that react to events, lay the window
+// out and draw it.
+#ifndef PEL_VIEWER_STATE_H
+#define PEL_VIEWER_STATE_H
+
+#include "viewer/history.h"
+#include "viewer/navigation.h"
+#include "viewer/present.h"
+#include "viewer/viewer.h"
+#include "viewer/window.h"
+#include "viewer/worker.h"
+
+enum { PEL_STATE_SENTENCE = 512 };
+
+// One window on the screen.
+struct pel_pane_window {
+    struct pel_window *window;
+    struct pel_present *present;
+    int pixels[2];
+    double scale; // how much larger than usual letters are
+};
+
+// One picture in a window.
+struct pel_screen_view {
+    int window;
+    struct pel_rectangle place;
+};
+
+// What the hand is doing in the picture.
+enum pel_drag { PEL_DRAG_NONE, PEL_DRAG_TURN, PEL_DRAG_PAN, PEL_DRAG_ZOOM, PEL_DRAG_TILT };
+
+struct pel_state {
+    const struct pel_viewer_options *options;
+    struct pel_scene *scene;
+    struct pel_history *history;
+    struct pel_navigation navigation; // its camera is the scene's
+    char scene_path[4096];            // where the scene is saved; "" = not yet
+    int selected;                     // instance
+
+    // The hand.
+    uint32_t held;        // bits of the actions whose keys are down
+    enum pel_drag drag;   //
+    int drag_view;        // where it began
+    double drag_px[2];    // where the pointer was last, from the view's corner
+    uint64_t gesture;     // number of the present drag or key press: its changes are one step
+    double pointer_px[2]; // where the pointer is, in the window
+    int pointer_window;   //
+
+    struct pel_event_queue queue;
+    struct pel_pane_window windows[PEL_WORKER_VIEWS];
+    int window_count;
+    struct pel_worker *worker;
+
+    // What is shown, and whether it is what should be.
+    struct pel_screen_view views[PEL_WORKER_VIEWS];
+    int view_count;
+    uint64_t version, sent; // counts the changes; the last one that was given to the worker
+    bool sent_moving;       // as one of many
+    double changed_ms;      // when the last change was
+    bool quick;             // only a quick picture of `sent` was asked for
+    struct pel_worker_picture shown; // what is on the screen, without its pixels
+    struct pel_worker_status status;
+    bool panels, readouts, help;
+    int shown_count; // pictures so far
+    bool redraw;     // the windows must be drawn again
+
+    char message[PEL_STATE_SENTENCE]; // to the user
+    double message_ms;                // when it was said
+    bool quit;
+    double now_ms;
+};
+
+// The scene is to be rendered anew.
+void pel_state_renew(struct pel_state *state);
+
+// The scene was changed by something that the undo button calls `what`. Changes of one gesture are
+// one step.
+void pel_state_change(struct pel_state *state, const char *what);
+
+// What follows is a gesture of its own.
+void pel_state_begin_gesture(struct pel_state *state);
+
+// The navigation's camera becomes the scene's.
+void pel_state_move_camera(struct pel_state *state);
+
+// Takes another scene in place of the present one, which is destroyed.
+void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene);
+
+// Width over height of the picture that the camera is for.
+double pel_state_aspect(const struct pel_state *state);
+
+// Says something to the user, in the window.
+void pel_state_say(struct pel_state *state, const char *format, ...) PEL_PRINTF(2, 3);
+
+double pel_state_clock_ms(void);
+
+#endif

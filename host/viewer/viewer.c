@@ -1,0 +1,201 @@
+// viewer.c - the viewer's event loop.
+//
+// Each turn takes the events that came, changes the scene, gives the worker a copy when something
+// changed, shows the newest picture, and sleeps until there is something to do. The loop never
+// waits for a picture.
+#include "viewer/viewer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "viewer/command.h"
+#include "viewer/hand.h"
+#include "viewer/screen.h"
+#include "viewer/state.h"
+
+// What has not changed for this long is at rest.
+static const double rest_ms = 150;
+
+// That can be undone.
+enum { STEPS = 200 };
+
+static enum pel_error fail(char *sentence, size_t bytes, enum pel_error code, const char *what) {
+    if (what)
+        snprintf(sentence, bytes, "%s", what);
+    return code;
+}
+
+// ---- Rendering ---------------------------------------------------------------------------------
+
+static double target_ms(const struct pel_state *state) {
+    return 1e3 / (state->options->rate > 0 ? state->options->rate : 30);
+}
+
+// Gives the worker the scene as it is now, once for each view.
+static void send(struct pel_state *state, bool moving) {
+    struct pel_worker_request request = {
+        .id = state->version, .moving = moving, .target_ms = target_ms(state)};
+    for (int i = 0; i < state->view_count; i++) {
+        struct pel_scene *scene = pel_scene_copy(state->scene);
+        if (!scene) {
+            pel_state_say(state, "%s", pel_error_message());
+            break;
+        }
+        pel_screen_fit_scene(state, i, scene);
+        request.scenes[request.view_count++] = scene;
+    }
+    if (request.view_count == state->view_count)
+        pel_worker_submit(state->worker, &request);
+    else
+        for (int i = 0; i < request.view_count; i++)
+            pel_scene_destroy(request.scenes[i]);
+    state->sent = state->version;
+    state->sent_moving = moving;
+}
+
+// Asks for what is not on its way yet: a quick picture of what changed, or all of it at rest.
+static void ask_for_picture(struct pel_state *state) {
+    bool rests = state->now_ms - state->changed_ms >= rest_ms;
+    if (state->version != state->sent)
+        send(state, state->shown_count > 0);
+    else if (state->sent_moving && rests)
+        send(state, false);
+}
+
+static void take_picture(struct pel_state *state) {
+    struct pel_worker_picture *picture = pel_worker_take(state->worker);
+    if (!picture)
+        return;
+    pel_screen_take(state, picture);
+    state->shown = *picture;
+    for (int i = 0; i < picture->view_count; i++)
+        state->shown.views[i].rgba = NULL;
+    state->shown_count++;
+    state->redraw = true;
+    pel_worker_picture_destroy(picture);
+}
+
+// ---- Events ------------------------------------------------------------------------------------
+
+static void react(struct pel_state *state, const struct pel_event *event) {
+    switch (event->kind) {
+    case PEL_EVENT_CLOSE:
+        state->quit = true;
+        break;
+    case PEL_EVENT_SIZE:
+        if (pel_screen_layout(state))
+            pel_state_renew(state);
+        state->redraw = true;
+        break;
+    case PEL_EVENT_DROP:
+        if (event->path)
+            pel_command_open(state, event->path);
+        break;
+    default:
+        pel_hand_react(state, event);
+        break;
+    }
+}
+
+// Panels see one button or key a picture, or they would miss those that are quickly up again.
+static void react_to_all(struct pel_state *state) {
+    struct pel_event event;
+    bool more = true;
+    while (more && pel_event_take(&state->queue, &event)) {
+        react(state, &event);
+        free(event.path);
+        more = event.kind != PEL_EVENT_BUTTON && event.kind != PEL_EVENT_KEY;
+    }
+}
+
+// ---- The loop ----------------------------------------------------------------------------------
+
+static bool is_resting(const struct pel_state *state) {
+    return state->version == state->sent && !state->sent_moving &&
+           (!state->status.busy || state->status.sentence[0]) &&
+           (state->status.sentence[0] || (state->shown.final && state->shown.id == state->version));
+}
+
+static double wait_seconds(const struct pel_state *state) {
+    if (state->redraw || state->queue.count > 0)
+        return 0;
+    if (pel_hand_is_busy(state))
+        return 0.005;
+    if (state->version != state->sent || state->sent_moving)
+        return 0.02;
+    return state->status.busy ? 0.1 : 0.5;
+}
+
+static bool is_over(const struct pel_state *state) {
+    const struct pel_viewer_options *options = state->options;
+    if (state->quit)
+        return true;
+    if (options->frames > 0 && state->shown_count >= options->frames)
+        return true;
+    return options->screenshot && options->frames == 0 && is_resting(state);
+}
+
+static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes) {
+    while (!is_over(state)) {
+        pel_window_wait(wait_seconds(state));
+        double now_ms = pel_state_clock_ms();
+        pel_hand_tick(state, (now_ms - state->now_ms) / 1e3);
+        state->now_ms = now_ms;
+        react_to_all(state);
+        ask_for_picture(state);
+        take_picture(state);
+        bool was_busy = state->status.busy;
+        pel_worker_ask(state->worker, &state->status);
+        if (state->redraw || was_busy || state->status.busy)
+            pel_screen_draw(state);
+        state->redraw = false;
+    }
+    const char *path = state->options->screenshot;
+    if (path && !pel_screen_save(state, path))
+        return fail(sentence, bytes, pel_error_code(), pel_error_message());
+    return PEL_OK;
+}
+
+static enum pel_error start(struct pel_state *state, char *sentence, size_t bytes) {
+    char reason[256];
+    if (!pel_window_start(reason, sizeof reason) ||
+        !pel_screen_open(state, reason, sizeof reason)) {
+        snprintf(sentence, bytes, "%s; 'pellucid render' makes pictures without a display", reason);
+        return PEL_ERROR_DEVICE;
+    }
+    state->scene = pel_scene_copy(state->options->scene);
+    state->history = state->scene ? pel_history_create(state->scene, STEPS) : NULL;
+    if (!state->history)
+        return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot allocate the scene");
+    pel_navigation_start(&state->navigation, &state->scene->camera);
+    if (state->options->scene_path)
+        snprintf(state->scene_path, sizeof state->scene_path, "%s", state->options->scene_path);
+    state->panels = state->readouts = !state->options->bare;
+    state->now_ms = pel_state_clock_ms();
+    state->worker = pel_worker_create(&state->options->renderer, pel_window_wake);
+    if (!state->worker)
+        return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot start the rendering thread");
+    pel_screen_layout(state);
+    pel_state_renew(state);
+    return PEL_OK;
+}
+
+enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *sentence,
+                              size_t bytes) {
+    struct pel_state *state = calloc(1, sizeof *state);
+    if (!state)
+        return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot allocate the viewer");
+    state->options = options;
+    enum pel_error code = start(state, sentence, bytes);
+    if (!code)
+        code = loop(state, sentence, bytes);
+    pel_worker_destroy(state->worker);
+    pel_screen_close(state);
+    pel_window_stop();
+    pel_event_finish(&state->queue);
+    pel_history_destroy(state->history);
+    pel_scene_destroy(state->scene);
+    free(state);
+    return code;
+}

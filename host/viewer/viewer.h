@@ -1,0 +1,26 @@
+// viewer.h - a window on a scene, to explore and change it by hand.
+#ifndef PEL_VIEWER_VIEWER_H
+#define PEL_VIEWER_VIEWER_H
+
+#include "pellucid.h"
+
+struct pel_viewer_options {
+    struct pel_scene *scene; // borrowed; the viewer works on a copy
+    const char *scene_path;  // where the scene came from and is saved to; NULL = from volumes
+    struct pel_renderer_options renderer;
+    int size[2];            // of the window in screen coordinates; 0 = as the scene's picture
+    bool full_screen;       //
+    bool bare;              // begins without panels and read-outs
+    const char *script;     // events to replay; NULL = none
+    const char *screenshot; // the window's picture goes there at the end; NULL = nowhere
+    int frames;             // ends after so many pictures were shown; 0 = does not
+    double rate;            // pictures per second to hold while things move; 0 = 30
+};
+
+// Opens the window and returns when it was closed, or when script and frames are at their end:
+// PEL_OK, or what kept it from opening or from saving the screenshot. The reason is then in
+// `sentence`. For the main thread.
+enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *sentence,
+                              size_t bytes);
+
+#endif

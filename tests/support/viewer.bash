@@ -1,0 +1,63 @@
+# viewer.bash - for the scripts of tests/viewer: a display of its own, and the viewer on it.
+source "$SOURCE/tests/support/cli.bash"
+"$PELLUCID" view --help >/dev/null 2>&1 || { echo "skipped: there is no command view"; exit 77; }
+if "$PELLUCID" view "$SOURCE/scenes/head-pair.json" 2>&1 </dev/null | grep -q 'built without the viewer'; then
+    echo "skipped: the program was built without the viewer"
+    exit 77
+fi
+for program in Xvfb xdotool python3; do
+    command -v $program >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
+done
+need_device
+export PELLUCID_DEVICE=${PELLUCID_DEVICE:-cpu} LIBGL_ALWAYS_SOFTWARE=1
+
+# Xvfb takes the first free number and says which.
+Xvfb -displayfd 3 -screen 0 1280x960x24 -nolisten tcp 3>display >/dev/null 2>xvfb.log &
+xvfb=$!
+trap 'kill "$xvfb" 2>/dev/null; wait "$xvfb" 2>/dev/null; rm -rf "$folder"' EXIT
+for _ in $(seq 100); do
+    [ -s display ] && break
+    sleep 0.1
+done
+[ -s display ] || { echo "skipped: Xvfb does not start: $(tail -1 xvfb.log)"; exit 77; }
+DISPLAY=:$(cat display)
+export DISPLAY
+
+# open ARGUMENT... - starts the viewer in the background and waits for its window: $viewer is the process, $window
+# the window.
+open() {
+    "$PELLUCID" view "$@" >view.out 2>view.err &
+    viewer=$!
+    window=
+    for _ in $(seq 300); do
+        window=$(xdotool search --onlyvisible --pid $viewer 2>/dev/null | head -1)
+        [ -n "$window" ] && break
+        kill -0 $viewer 2>/dev/null || break
+        sleep 0.1
+    done
+    [ -n "$window" ] || { complain "no window: $(cat view.err)"; return 1; }
+    xdotool windowfocus "$window"
+}
+
+# shut - quits by the key, and checks that the program agrees.
+shut() {
+    xdotool key --window "$window" ctrl+q 2>/dev/null || xdotool key ctrl+q
+    wait "$viewer"
+    local status=$?
+    [ $status -eq 0 ] || complain "the viewer ends with status $status: $(tail -5 view.err)"
+    grep -v 'warning:' view.err && complain "the viewer says: $(cat view.err)"
+    return 0
+}
+
+# differ A B - prints the greatest difference of two PPM pictures, or "sizes".
+differ() {
+    python3 -c '
+import sys
+def read(path):
+    data = open(path, "rb").read()
+    _, width, height, _, _ = data.split(None, 4)
+    size = int(width) * int(height) * 3
+    return width, height, data[-size:]
+a, b = read(sys.argv[1]), read(sys.argv[2])
+print(max(abs(x - y) for x, y in zip(a[2], b[2])) if a[:2] == b[:2] else "sizes")' "$1" "$2"
+}
