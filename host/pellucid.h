@@ -676,7 +676,7 @@ struct pel_render_options {
     pel_progress_callback progress;
     void *user;
     double batch_ms; // what a batch should take: how soon a frame can be abandoned; 0 = 150
-    float *numbers; // receives a debug view's number of each pixel, rows from the top; may be NULL
+    float *numbers;  // receives a debug view's number of each pixel, rows from the top; may be NULL
 };
 
 // Opens a device. Fails (DEVICE, ARGUMENT) with a sentence that lists what was found.
