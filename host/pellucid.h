@@ -365,6 +365,32 @@ enum pel_mixing {
     PEL_MIX_OVER, // blended front to back at each sample in the order of the list
 };
 
+// How light is gathered in a volume along a ray. docs/picture.md, "Optical models", has the
+// formulae and what they do together.
+enum pel_model {
+    PEL_MODEL_DEFAULT,    // of a volume: the scene's; of the scene: absorption
+    PEL_MODEL_ABSORPTION, // it emits and absorbs
+    PEL_MODEL_EMISSION,   // it emits only: colour times the exact length in each voxel (Max 1995)
+    PEL_MODEL_MIP,        // its greatest value on the ray
+    PEL_MODEL_MINIP,      // its least
+    PEL_MODEL_AVERAGE,    // the mean of its values
+    PEL_MODEL_ISO,        // its surfaces of given values
+    PEL_MODEL_THESIS,     // Romero 2009: opacity per sample, not per length. Wrong by design
+};
+
+// From which end the samples of a ray are put together.
+enum pel_order { PEL_ORDER_FRONT_TO_BACK, PEL_ORDER_BACK_TO_FRONT };
+
+#define PEL_SURFACE_MAX 4
+
+// A surface of model iso: where a volume has this value.
+struct pel_surface {
+    double value;   // in the file's own unit
+    double opacity; // 0..1
+    bool coloured;  // it has a colour of its own; otherwise the transfer function's
+    double rgb[3];  // straight, 0..1
+};
+
 // Where the samples of a ray are counted from.
 enum pel_sample_origin {
     PEL_ORIGIN_VOLUMES, // the nearest entry into any visible volume's own box
@@ -405,6 +431,9 @@ struct pel_instance {
     struct pel_material material;  //
     double step;                   // of its samples, in its own finest voxels; 0 = the scene's
     double step_mm;                // the same in millimetres, instead of `step`; 0 = as `step` says
+    enum pel_model model;          //
+    int surface_count;             // of model iso; 0: one of the middle value, opaque
+    struct pel_surface surfaces[PEL_SURFACE_MAX];
 };
 
 #define PEL_LIGHT_MAX 8
@@ -476,8 +505,11 @@ struct pel_render_settings {
     enum pel_mixing mixing; //
     double step;            // in voxels of the finest visible volume; > 0
     double step_mm;         // the same in millimetres, instead of `step`; 0 = as `step` says
-    double phase;           // of the first sample, in steps; 0..1
-    double termination;     // a ray ends once its opacity exceeds this; 1 = never
+    enum pel_model model;   // of volumes that have none of their own
+    enum pel_order order;   // back to front no ray ends early
+    double emission_scale; // of model emission, per mm; 0 = 1 over the longest way through a volume
+    double phase;          // of the first sample, in steps; 0..1
+    double termination;    // a ray ends once its opacity exceeds this; 1 = never
     enum pel_sample_origin origin;
     enum pel_skip skip; //
     struct pel_supersampling supersampling;

@@ -26,12 +26,28 @@ static struct cell_dims cell_dims(__constant struct part *part, uint count) {
     return dims;
 }
 
-// Whether something may be visible in a cell with a range of values.
+// Whether a surface of the part may lie in a cell with a range of values.
+static bool has_surface(__constant struct part *part, float2 range) {
+    __constant const float *values = (__constant const float *)&part->surface_values;
+    for (int n = 0; n < part->surface_count; n++) {
+        const float slack = 1e-5f * (range.y - range.x + fabs(values[n]));
+        if (values[n] >= range.x - slack && values[n] <= range.y + slack)
+            return true;
+    }
+    return false;
+}
+
+// Whether something may be visible in a cell with a range of values. An extremum is moved by all values that it does not
+// outdo, and a mean by all.
 static bool occupied(__constant struct part *part, float2 range, __global const uint *counts,
                      bool linear) {
     // A cell without any value has its ends the wrong way round.
     if (range.x > range.y)
         return false;
+    if (part->model == MODEL_ISO)
+        return has_surface(part, range);
+    if (part->model == MODEL_AVERAGE)
+        return true;
     const float a = range.x * part->table_scale + part->table_bias;
     const float b = range.y * part->table_scale + part->table_bias;
     // Interpolation rounds; one value everywhere does not.
@@ -39,8 +55,12 @@ static bool occupied(__constant struct part *part, float2 range, __global const 
     const float low = clamp(fmin(a, b) - slack, 0.0f, part->table_last);
     const float high = clamp(fmax(a, b) + slack, 0.0f, part->table_last);
     const bool between = linear && !part->table_nearest;
-    const int first = between ? (int)low : (int)(low + 0.5f);
-    const int last = between ? (int)ceil(high) : (int)(high + 0.5f);
+    int first = between ? (int)low : (int)(low + 0.5f);
+    int last = between ? (int)ceil(high) : (int)(high + 0.5f);
+    if (part->model == MODEL_MIP)
+        first = 0;
+    if (part->model == MODEL_MINIP)
+        last = (int)part->table_last;
     return counts[last + 1] > counts[first];
 }
 

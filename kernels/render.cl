@@ -6,6 +6,7 @@
 // cursor; after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
 #include "mix.cl"
+#include "model.cl"
 #include "pixel.cl"
 #include "shade.cl"
 #include "span.cl"
@@ -36,6 +37,14 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
     struct active active;
     active.until = CAPACITY == 1 ? last : i;
 
+#if MODELS
+    struct gathered gathered;
+    gathered_begin(&gathered, crossing);
+    struct light *const layer = &gathered.media;
+#else
+    struct light *const layer = &light;
+#endif
+
     while (any_lane(alive)) {
 #if CAPACITY > 1
         if (any_lane(alive & MASK(i >= active.until)))
@@ -58,6 +67,14 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             const real x = cursor->ox + t * cursor->dx, y = cursor->oy + t * cursor->dy,
                        z = cursor->oz + t * cursor->dz;
             const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
+#if MODELS
+            if (part->model != MODEL_ABSORPTION) {
+                const struct spot spot = {part, cursor, c, i, present};
+                seen |= gather(world, table, cells, MEMORY_ARGUMENTS, &gathered, crossing, &light,
+                               &sample, spot);
+                continue;
+            }
+#endif
             const struct entry entry = find_entry(part, sample.raw, &present);
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
@@ -78,21 +95,28 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
 #if SHADING
             if (part->shading != SHADING_NONE)
-                shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first, t, x, y, z,
-                      CHOOSE(zero, sample.raw, visible), &r, &g, &b);
+                shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
+                      SAMPLE_NUMBER(crossing, t), x, y, z, CHOOSE(zero, sample.raw, visible), &r, &g,
+                      &b);
 #endif
-            mix_add(&mixture, &light, r, g, b, CHOOSE(zero, strength, visible));
+            mix_add(&mixture, layer, r, g, b, CHOOSE(zero, strength, visible));
         }
 
         i -= alive; // one on, where the ray still runs
         if (any_lane(seen)) {
-            mix_end(&mixture, &light);
+            mix_end(&mixture, layer);
+#if MODELS
+            gathered_join(&gathered, &light);
+#endif
             alive &= MASK(light.a <= world->termination);
         } else {
             i = leap(&active, crossing, i);
         }
         alive &= MASK(i < last);
     }
+#if MODELS & MODELS_PROJECTION
+    slip_in_projections(world, table, &gathered, crossing, &light);
+#endif
     return light;
 }
 

@@ -28,6 +28,10 @@
 #define CAPACITY 1 // parts the kernel has room for: 1, 8 or WORLD_PART_MAX
 #endif
 
+#ifndef MODELS
+#define MODELS 0 // what else than absorption, gathered front to back, occurs: MODELS_*
+#endif
+
 // With room for one part only, the compiler must see that there is only one, or it keeps the cursor in
 // memory instead of registers.
 #define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
@@ -42,7 +46,31 @@ struct crossing {
     struct ray ray;
     real t_first; // where sample 0 lies
 #endif
+#if MODELS & MODELS_BACKWARD
+    integer mirror; // what the numbers of a sample front to back and back to front add up to
+#endif
 };
+
+#if MODELS & MODELS_BACKWARD
+// Turns a cursor round, so that the part's last sample comes first. Each sample stays where it is.
+INLINE void cursor_mirror(struct cursor *cursor, integer mirror) {
+    const mask runs = MASK(cursor->first < cursor->end);
+    const integer first = mirror - cursor->end + 1, end = mirror - cursor->first + 1;
+    const real t = TO_REAL(mirror);
+    cursor->first = CHOOSE(cursor->first, first, runs);
+    cursor->end = CHOOSE(cursor->end, end, runs);
+    cursor->next = cursor->first;
+    cursor->ox += t * cursor->dx;
+    cursor->oy += t * cursor->dy;
+    cursor->oz += t * cursor->dz;
+    cursor->dx = -cursor->dx;
+    cursor->dy = -cursor->dy;
+    cursor->dz = -cursor->dz;
+}
+#define SAMPLE_NUMBER(crossing, t) (TO_REAL((crossing)->mirror) - (t))
+#else
+#define SAMPLE_NUMBER(crossing, t) (t)
+#endif
 
 // Finds the parts that the packet crosses and where each ray's samples begin.
 INLINE void find_crossing(__constant struct world *world, __global const uchar *cells,
@@ -63,12 +91,19 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     crossing->ray = *ray;
     crossing->t_first = fmin(t_near, 1e9f) + world->phase * world->step_mm;
 #endif
+#if MODELS & MODELS_BACKWARD
+    const float samples_per_mm = 1.0f / world->step_mm;
+    crossing->mirror = sample_at(bounds.far, t_near, RAY_PHASE(world, ray), samples_per_mm) + 1;
+#endif
     crossing->count = 0;
     for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
         __constant struct part *part = &world->parts[p];
         const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
         const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
         struct cursor cursor = cursor_begin(world, part, &ray_voxel, &span, t_near);
+#if MODELS & MODELS_BACKWARD
+        cursor_mirror(&cursor, crossing->mirror);
+#endif
         if (any_lane(MASK(cursor.first < cursor.end)))
             cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
         if (any_lane(MASK(cursor.next < cursor.end))) {

@@ -13,6 +13,8 @@ enum {
     KEY_MIX,
     KEY_STEP,
     KEY_STEP_MM,
+    KEY_MODEL,
+    KEY_ORDER,
     KEY_FILTER,
     KEY_TERMINATION,
     KEY_PHASE,
@@ -91,6 +93,13 @@ static const struct argp_option argp_options[] = {
      0},
     {0, 0, NULL, 0, "Rendering:", 4},
     {"mix", KEY_MIX, "sum|over", 0, "How overlapping volumes share a sample", 0},
+    {"model", KEY_MODEL, "absorption|emission|mip|minip|average|iso|thesis", 0,
+     "How light is gathered along a ray, in volumes that say nothing else; thesis is that of a "
+     "2009 "
+     "thesis and wrong by design",
+     0},
+    {"order", KEY_ORDER, "front-to-back|back-to-front", 0,
+     "From which end a ray's samples are put together", 0},
     {"step", KEY_STEP, "N", 0, "Distance of samples, in voxels of the finest volume", 0},
     {"step-mm", KEY_STEP_MM, "MM", 0, "The same in millimetres", 0},
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
@@ -251,6 +260,12 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_STEP:
         overrides_add(&options->overrides, "render.step_mm", "null");
         good = add_number(options, "--step", "render.step", argument);
+        break;
+    case KEY_MODEL:
+        overrides_add_text(&options->overrides, "render.model", argument);
+        break;
+    case KEY_ORDER:
+        overrides_add_text(&options->overrides, "render.order", argument);
         break;
     case KEY_STEP_MM:
         overrides_add(&options->overrides, "render.step", "null");

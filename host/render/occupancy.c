@@ -41,6 +41,9 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
         copy->cells = part->cells;
         copy->ranges = part->ranges;
         copy->visible = part->visible;
+        copy->model = part->model;
+        copy->surface_count = part->surface_count;
+        copy->surface_values = part->surface_values;
     }
 }
 

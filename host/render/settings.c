@@ -2,6 +2,7 @@
 #include "render/settings.h"
 
 #include "base/error.h"
+#include "world/model.h"
 #include "world/step.h"
 
 enum { PICTURE_MAX = 32768 };
@@ -34,5 +35,5 @@ bool pel_settings_check(const struct pel_scene *scene) {
         return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
     if ((unsigned)settings->debug > PEL_DEBUG_TIME)
         return pel_fail(PEL_ERROR_ARGUMENT, "debug view %d", (int)settings->debug);
-    return check_supersampling(&settings->supersampling);
+    return pel_model_check(scene) && check_supersampling(&settings->supersampling);
 }

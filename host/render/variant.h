@@ -13,6 +13,7 @@ struct pel_variant {
     int voxels;   // VOXELS_*
     int filters;  // FILTERS_*
     int mixing;   // MIXING_*
+    int models;   // MODELS_*
     int skip;     // SKIP_*
     int capacity; // parts: 1, 8 or WORLD_PART_MAX
     bool shading; // some part is shaded

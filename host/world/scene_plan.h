@@ -71,6 +71,10 @@ bool pel_scene_read_colour(double rgba[4], const struct pel_scene_node *object, 
 // `step` or `step_mm` of a scene's settings or of a volume, but not both.
 bool pel_scene_read_step(const struct pel_scene_node *object, double *step, double *step_mm);
 
+// How light is gathered: the scene's settings, and what a volume has of its own.
+bool pel_scene_read_march(struct pel_render_settings *render, const struct pel_scene_node *node);
+bool pel_scene_read_model(struct pel_instance *instance, const struct pel_scene_node *volume);
+
 // The one instance of that name; fails about `node` when there is none, or several.
 bool pel_scene_find_instance(const struct pel_scene *scene, const struct pel_scene_node *node,
                              const char *name, int *instance);

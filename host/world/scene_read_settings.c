@@ -12,8 +12,8 @@
 enum { PICTURE_MAX = 32768 };
 
 static const char *const render_keys[] = {
-    "comment", "size", "mixing",        "step",   "step_mm", "phase", "termination",
-    "origin",  "skip", "supersampling", "jitter", "debug",   NULL};
+    "comment", "size",          "mixing", "step",  "step_mm", "phase", "termination",    "origin",
+    "skip",    "supersampling", "jitter", "debug", "model",   "order", "emission_scale", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
@@ -82,17 +82,6 @@ static bool read_size(struct pel_render_settings *render, const struct pel_scene
     return true;
 }
 
-bool pel_scene_read_step(const struct pel_scene_node *object, double *step, double *step_mm) {
-    const struct pel_range range = {.low = 0.001, .high = 1000};
-    struct pel_scene_node voxels, millimetres;
-    bool both = pel_node_member(&voxels, object, "step") &&
-                pel_node_member(&millimetres, object, "step_mm");
-    if (both)
-        return pel_node_fail(&millimetres, "stands beside 'step', which says the same in voxels");
-    return pel_node_get_number(object, "step", &range, step) &&
-           pel_node_get_number(object, "step_mm", &pel_positive_number, step_mm);
-}
-
 static bool read_supersampling(struct pel_supersampling *supersampling,
                                const struct pel_scene_node *render) {
     struct pel_scene_node node;
@@ -122,7 +111,7 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
     bool good =
         pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
         pel_node_get_name(&node, "mixing", mixing_names, &mixing) &&
-        pel_scene_read_step(&node, &render->step, &render->step_mm) &&
+        pel_scene_read_march(render, &node) &&
         pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
         pel_node_get_number(&node, "termination", &termination_range, &render->termination) &&
         pel_node_get_name(&node, "origin", origin_names, &origin) &&

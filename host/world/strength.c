@@ -8,6 +8,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "shared/variant.h"
+
 // Half of either difference is the largest error of one sample: in opacity, and in a colour's share
 // of it.
 static const double gentle_opacity = 1.0 / 512;
@@ -30,7 +32,22 @@ static void between(double rgba[4], const struct pel_table *table, int j, int pa
         rgba[c] = table->rgba[j][c] + weight * ((double)table->rgba[next][c] - table->rgba[j][c]);
 }
 
-static double strength(double opacity, const struct pel_strength_rule *rule) {
+// Only absorption is a matter of length; emission is dark where the colour is, whatever the
+// opacity.
+static double strength(const double rgba[4], const struct pel_strength_rule *rule) {
+    double opacity = rgba[3];
+    switch (rule->model) {
+    case MODEL_EMISSION:
+        return fmax(rgba[0], fmax(rgba[1], rgba[2])) > 0 ? rule->emission * rule->density : 0;
+    case MODEL_MIP:
+    case MODEL_MINIP:
+    case MODEL_AVERAGE:
+        return opacity;
+    case MODEL_THESIS:
+        return fmin(opacity * rule->density, 1);
+    default:
+        break;
+    }
     double depth =
         -log1p(-fmin(opacity, 1 - 0x1p-24)) / rule->opacity_unit_mm * rule->density * rule->step_mm;
     return rule->depth ? depth : -expm1(-depth);
@@ -42,7 +59,7 @@ void pel_strength_write(u32 *words, const struct pel_table *table, int refinemen
     for (int i = 0; i < count; i++) {
         double rgba[4];
         between(rgba, table, i / refinement, i % refinement, refinement);
-        float value = (float)strength(rgba[3], rule);
+        float value = (float)strength(rgba, rule);
         memcpy(&words[PEL_STRENGTH_WORDS * i], &value, sizeof value);
         u32 colour = 0;
         for (int c = 0; c < 3; c++)
@@ -52,7 +69,7 @@ void pel_strength_write(u32 *words, const struct pel_table *table, int refinemen
 }
 
 bool pel_strength_is_gentle(const struct pel_table *table, const struct pel_strength_rule *rule) {
-    if (table->nearest)
+    if (table->nearest || rule->model == MODEL_ISO)
         return true;
     struct pel_strength_rule opacity_rule = *rule;
     opacity_rule.depth = false;
@@ -61,7 +78,7 @@ bool pel_strength_is_gentle(const struct pel_table *table, const struct pel_stre
     for (int i = 0; i <= (table->entry_count - 1) * refinement; i++) {
         double rgba[4];
         between(rgba, table, i / refinement, i % refinement, refinement);
-        double opacity = strength(rgba[3], &opacity_rule);
+        double opacity = strength(rgba, &opacity_rule);
         if (i > 0) {
             if (fabs(opacity - last_opacity) > gentle_opacity)
                 return false;

@@ -12,6 +12,8 @@ struct pel_strength_rule {
     double density;         //
     double opacity_unit_mm; //
     bool depth;             // optical depths of a step instead of opacities
+    int model;              // one of MODEL_*
+    double emission;        // of model emission: brightness per millimetre
 };
 
 // The most entries a table can have on the device, and the words of one entry.

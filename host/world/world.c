@@ -12,6 +12,7 @@
 #include "camera/camera.h"
 #include "world/brick.h"
 #include "world/lighting.h"
+#include "world/model.h"
 #include "world/step.h"
 #include "world/strength.h"
 
@@ -153,7 +154,8 @@ static bool count_visible(struct pel_world *world, const u32 *start, size_t entr
     for (size_t i = 0; i < entries; i++) {
         float strength;
         memcpy(&strength, &start[PEL_STRENGTH_WORDS * i], sizeof strength);
-        counts[i + 1] = counts[i] + (strength > 0);
+        bool glows = world->models & MODELS_THESIS && start[PEL_STRENGTH_WORDS * i + 1] != 0;
+        counts[i + 1] = counts[i] + (strength > 0 || glows);
     }
     world->visible_words = words;
     return true;
@@ -172,12 +174,8 @@ static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
         return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
     world->tables = tables;
     u32 *start = tables + world->table_words;
-    const struct pel_strength_rule rule = {
-        .step_mm = world->bytes.step_mm,
-        .density = instance->density,
-        .opacity_unit_mm = instance->transfer->opacity_unit_mm,
-        .depth = world->depth,
-    };
+    struct pel_strength_rule rule = {.step_mm = world->bytes.step_mm, .depth = world->depth};
+    pel_model_fill_rule(&rule, scene, instance);
     pel_strength_write(start, table, refinement, &rule);
     memcpy(start + (entries - 1) * PEL_STRENGTH_WORDS, start + (entries - 2) * PEL_STRENGTH_WORDS,
            PEL_STRENGTH_WORDS * sizeof *start);
@@ -198,11 +196,8 @@ static bool build_tables(struct pel_table *tables, struct pel_world *world,
             continue;
         if (!pel_table_build(&tables[k], instance->transfer, scene->volumes[instance->volume]))
             return pel_fail_in("volume '%s'", instance->name);
-        const struct pel_strength_rule rule = {
-            .step_mm = world->bytes.step_mm,
-            .density = instance->density,
-            .opacity_unit_mm = instance->transfer->opacity_unit_mm,
-        };
+        struct pel_strength_rule rule = {.step_mm = world->bytes.step_mm};
+        pel_model_fill_rule(&rule, scene, instance);
         if (!pel_strength_is_gentle(&tables[k], &rule))
             world->table_linear = true;
     }
@@ -233,7 +228,8 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
                  (float)(scene->background[2] * alpha), (float)alpha};
     bytes->step_mm = (float)pel_step_of_scene(scene);
     bytes->phase = (float)settings->phase;
-    bytes->termination = settings->termination < 1 ? (float)settings->termination : 2;
+    bool ends = settings->termination < 1 && !pel_model_never_ends(scene);
+    bytes->termination = ends ? (float)settings->termination : 2;
     bytes->origin_bounds = settings->origin == PEL_ORIGIN_BOUNDS;
     bytes->width = settings->width;
     bytes->height = settings->height;
@@ -249,6 +245,14 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
         (i32)settings->debug; // the numbers of shared/variant.h are in the order of the enum
 }
 
+// The parts an instance is cut into.
+static int count_slabs(const struct pel_layout *layout, const struct pel_instance *instance) {
+    int count = 0;
+    for (int s = 0; s < layout->slab_count; s++)
+        count += layout->slabs[s].volume == instance->volume;
+    return count;
+}
+
 static bool fill_instances(struct pel_world *world, const struct pel_scene *scene,
                            const struct pel_layout *layout, const struct pel_table *tables,
                            const double centre[3]) {
@@ -258,12 +262,13 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
             continue;
         struct part pattern = {0};
         pattern.step_mm = (float)pel_step_of_instance(scene, instance);
-        pattern.density = (float)instance->density;
         pattern.filter = instance->filter == PEL_FILTER_NEAREST ? FILTERS_NEAREST : FILTERS_LINEAR;
         world->filters |= pattern.filter;
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;
-        if (!pel_lighting_fill_part(&pattern, instance, scene->volumes[instance->volume]))
+        if (!pel_lighting_fill_part(&pattern, instance, scene->volumes[instance->volume]) ||
+            !pel_model_fill_part(&pattern, scene, instance, &tables[k],
+                                 count_slabs(layout, instance)))
             return pel_fail_in("volume '%s'", instance->name);
         world->shaded |= pattern.shading != SHADING_NONE;
         if (!fill_parts(world, scene, layout, instance, &pattern, centre))
@@ -291,6 +296,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
 
     world->supersampling = !scene->render.debug && is_supersampled(&scene->render.supersampling);
     world->jitter = scene->render.jitter;
+    world->models = pel_model_kernel(scene);
     world->mixing = scene->render.mixing == PEL_MIX_SUM ? MIXING_SUM : MIXING_OVER;
     struct pel_table tables[PEL_VOLUME_MAX] = {{0}};
     bool good = build_tables(tables, world, scene);
@@ -298,9 +304,8 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     // several.
     int parts = 0;
     for (int k = 0; k < scene->instance_count; k++)
-        for (int s = 0; s < layout->slab_count; s++)
-            parts += !scene->instances[k].hidden &&
-                     layout->slabs[s].volume == scene->instances[k].volume;
+        if (!scene->instances[k].hidden)
+            parts += count_slabs(layout, &scene->instances[k]);
     world->depth = world->mixing == MIXING_SUM && parts > 1;
     good = good && fill_instances(world, scene, layout, tables, centre);
     for (int k = 0; k < PEL_VOLUME_MAX; k++)

@@ -16,6 +16,7 @@ struct pel_world {
     int voxels;         // classes of voxels, VOXELS_*
     int filters;        // FILTERS_*
     int mixing;         // MIXING_*
+    int models;         // MODELS_*
     bool table_linear;  // some table must be interpolated
     bool shaded;        // some part is
     bool supersampling; // several rays a pixel, or one that does not go through its centre

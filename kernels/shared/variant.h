@@ -38,6 +38,14 @@
 #define MODEL_ISO 6
 #define MODEL_THESIS 7
 
+// MODELS: what else than absorption, gathered front to back, occurs, one bit each.
+#define MODELS_THESIS 1
+#define MODELS_ISO 2
+#define MODELS_PROJECTION 4 // mip, minip and average
+#define MODELS_PREINTEGRATED 8
+#define MODELS_BACKWARD 16 // the last sample of a ray comes first
+#define MODELS_EMISSION 32 // and nothing else: the exact integrator
+
 // Of a part: how it is shaded. The knob SHADING is 1 when any part is.
 #define SHADING_NONE 0
 #define SHADING_BLINN_PHONG 1

@@ -62,7 +62,7 @@ struct part {
     float spacing_mm;           // of the nearest voxels
     i32 shading;                // one of SHADING_*
     i32 one_sided;              // 1: light comes only from where the normal points
-    float4 surface_values;      // model iso: of its surfaces, as places in the table, ascending
+    float4 surface_values;      // model iso: of its surfaces, raw as samples are, ascending
     float4 surfaces[4];         // their straight colours and opacities
     i32 surface_count;          //
     i32 model;                  // one of MODEL_*

@@ -13,6 +13,7 @@
 #include <math.h>
 
 #include "base/math.h"
+#include "reference/model.h"
 #include "reference/path.h"
 #include "reference/shade.h"
 
@@ -158,12 +159,29 @@ static void add_body(double *extinction, double *wrong, const struct reference *
         *wrong += medium.extinction * brightest(reference);
 }
 
+// Where light is gathered in other ways: how far it goes when all values are off one way or the
+// other, and half as much again.
+static double model_bound(const struct reference *reference, const struct reference_path *path,
+                          const struct reference_errors *errors) {
+    double right[4], wrong[4], bound = 0;
+    uint64_t taken = 0;
+    reference_gather(right, reference, path, NULL, 0, &taken);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        reference_gather(wrong, reference, path, errors, sign, &taken);
+        for (int c = 0; c < 4; c++)
+            bound = fmax(bound, 1.5 * fabs(wrong[c] - right[c]));
+    }
+    return bound;
+}
+
 double reference_cast_bound(const struct reference *reference, double x_px, double y_px,
                             const struct reference_errors *errors) {
     struct reference_path path;
     if (!reference_begin(&path, reference, x_px, y_px))
         return 0;
 
+    if (!reference_is_plain(reference))
+        return model_bound(reference, &path, errors);
     double termination = reference->scene->render.termination;
     double bound = 0, depth = 0, t = 0;
     for (double i = 0; t = reference_sample_t(reference, &path, i),

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "reference/mix.h"
+#include "reference/model.h"
 #include "reference/path.h"
 #include "reference/shade.h"
 #include "reference/supersample.h"
@@ -79,11 +80,15 @@ void reference_cast(const struct reference *reference, double x_px, double y_px,
         rgba[c] = 0;
 
     struct reference_path path;
-    if (reference_begin(&path, reference, x_px, y_px)) {
+    bool runs = reference_begin(&path, reference, x_px, y_px);
+    if (runs && !reference_is_plain(reference)) {
+        reference_gather(rgba, reference, &path, NULL, 0, &taken);
+    } else if (runs) {
         for (double i = 0; reference_sample_t(reference, &path, i) < path.t_far; i++) {
             layer_at(layer, reference, &path, reference_sample_t(reference, &path, i), &taken);
             reference_compose(rgba, rgba, layer);
-            if (rgba[3] > settings->termination && settings->termination != 1)
+            if (rgba[3] > settings->termination && settings->termination != 1 &&
+                settings->order == PEL_ORDER_FRONT_TO_BACK)
                 break;
         }
     }

@@ -1,0 +1,53 @@
+// model.c - optical models on the device, against the reference and against each other.
+#include <math.h>
+
+#include "reference/reference.h"
+#include "support/judge.h"
+#include "support/picture.h"
+#include "support/scenes.h"
+#include "support/test.h"
+
+// Two overlapping volumes of smooth waves, turned against each other.
+static struct pel_scene *scene_of_two(void) {
+    struct pel_scene *scene = scene_create(24, 16);
+    const int dims[3] = {18, 16, 14};
+    const double range[2] = {0, 255}, spacing[3] = {1.5, 1.25, 1.5};
+    struct pel_volume *first = scene_volume_waves(dims, PEL_VOXEL_U8, 5, 9);
+    struct pel_volume *second = scene_volume_waves(dims, PEL_VOXEL_U8, 6, 7);
+    scene_place(first, spacing, (double[]){0.1, 0.3, -0.2, 0.92}, (double[]){-3, 1, 0}, false);
+    scene_place(second, spacing, (double[]){0.5, -0.2, 0.1, 0.8}, (double[]){4, 0, 2}, false);
+    scene_add(scene, first, scene_transfer_gentle(range, 0.2, 11));
+    scene_add(scene, second, scene_transfer_gentle(range, 0.3, 12));
+    return scene;
+}
+
+static const char *const names[] = {"default", "absorption", "emission", "mip",
+                                    "minip",   "average",    "iso",      "thesis"};
+
+// Every model beside absorption, with and without skipping.
+static void test_models(void **state) {
+    (void)state;
+    struct pel_scene *scene = scene_of_two();
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, judge_packet_lanes());
+    scene->instances[0].material = pel_material_default(PEL_SHADING_BLINN_PHONG);
+    scene->instances[0].surface_count = 2;
+    scene->instances[0].surfaces[0] = (struct pel_surface){.value = 150, .opacity = 0.5};
+    scene->instances[0].surfaces[1] =
+        (struct pel_surface){.value = 100, .opacity = 0.7, .coloured = true, .rgb = {1, 0.5, 0}};
+    for (enum pel_model model = PEL_MODEL_MIP; model <= PEL_MODEL_THESIS; model++) {
+        scene->instances[0].model = model;
+        for (int skip = model != PEL_MODEL_ISO; skip < 2; skip++) {
+            scene->render.skip = skip ? PEL_SKIP_DISTANCE : PEL_SKIP_NONE;
+            pel_image_destroy(judge_render(renderer, scene, NULL, names[model]));
+        }
+    }
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_models),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
