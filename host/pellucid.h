@@ -459,6 +459,13 @@ enum pel_skip {
     PEL_SKIP_GRID,     // empty cells of 4^3 voxels are left one by one
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
     PEL_SKIP_OCTREE,   // empty nodes of an octree over the same cells are left one by one
+    PEL_SKIP_BVH,      // from cluster to cluster of bricks, by a bounding volume hierarchy
+};
+
+// The cubes of voxels in which PEL_SKIP_BVH looks for what is visible (Ganter & Manzke 2019).
+struct pel_brick_settings {
+    int size;   // voxels along a side: 8, 16, 32, 64 or 128; 0 = 16
+    bool apart; // each active brick is a cluster of its own
 };
 
 // Where the n x n rays of a pixel go through it. See docs/picture.md for the sources.
@@ -512,6 +519,7 @@ struct pel_render_settings {
     double termination;    // a ray ends once its opacity exceeds this; 1 = never
     enum pel_sample_origin origin;
     enum pel_skip skip; //
+    struct pel_brick_settings bricks;
     struct pel_supersampling supersampling;
     bool jitter;          // every ray has a random phase of its own in place of `phase`
     enum pel_debug debug; //
@@ -673,6 +681,13 @@ struct pel_image {
     float *rgba; // owned; premultiplied; rows from the top
 };
 
+// Bricks, all volumes together. The times are those of the last change of what is visible.
+struct pel_brick_statistics {
+    int size;                                // voxels along a side; 0: there are none
+    uint64_t total, active, clusters;        //
+    double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
+};
+
 // The numbers of a debug view over the picture's pixels.
 struct pel_debug_range {
     double min, max, mean;
@@ -689,6 +704,8 @@ struct pel_render_statistics {
     uint64_t device_bytes;   // allocated on the device at the end of the frame
     uint64_t uploaded_bytes; // sent to the device for this frame
     enum pel_skip skip;
+    uint64_t skip_bytes; // of device_bytes, those for skipping
+    struct pel_brick_statistics bricks;
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
     struct pel_debug_range debug; // of the scene's debug view, zeros without one
     // Of two eyes; all of the above is then their sum.
@@ -724,6 +741,42 @@ PEL_API struct pel_image *pel_renderer_render(struct pel_renderer *renderer,
                                               const struct pel_scene *scene,
                                               const struct pel_render_options *options,
                                               struct pel_render_statistics *statistics);
+
+// A stretch of a ray with a constant set of volumes, at least one.
+struct pel_probe_span {
+    double from_mm, to_mm; // from the ray's origin: the first sample, and a step behind the last
+    uint32_t instances;    // bit k: instance k of the scene is there
+};
+
+// A sample of one volume. Between those listed, the others were skipped.
+struct pel_probe_sample {
+    int instance, number; // of the sample along the ray, 0 the first one
+    double distance_mm;   // from the ray's origin
+    double position[3];   // in the world
+    double value;         // in the file's own unit; NaN where absent
+    double opacity;       // that one step of this volume has here; 0: nothing to be seen
+    double rgb[3];        // straight, shaded; 0 where nothing is to be seen
+    double accumulated;   // opacity that the ray had gathered before it
+};
+
+#define PEL_PROBE_SAMPLE_MAX 65536
+
+// What the ray through one pixel's centre meets.
+struct pel_probe {
+    double origin[3], direction[3]; // in the world; the direction has length 1
+    int span_count, sample_count;
+    struct pel_probe_span *spans;     // owned
+    struct pel_probe_sample *samples; // owned; PEL_PROBE_SAMPLE_MAX at most
+    bool cut;                         // there were more samples than that
+    double rgba[4];                   // premultiplied, background included
+};
+
+// Follows the ray through the centre of pixel (x, y), counted from the top left, as a picture does,
+// and tells what it met. Supersampling, stereo and debug views are not looked at. Fails as
+// pel_renderer_render does, and (ARGUMENT) for a pixel outside the picture.
+PEL_API bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *scene, int x,
+                                int y, struct pel_probe *probe);
+PEL_API void pel_probe_finish(struct pel_probe *probe);
 
 // Renders the pictures of both eyes, each of the scene's size; the second one uploads nothing but
 // its camera. A scene without stereo gives the same picture twice. The caller owns both; on failure

@@ -73,6 +73,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, model);
     *out++ = OFFSET(struct part, step_mm);
     *out++ = OFFSET(struct part, density);
+    *out++ = OFFSET(struct part, number);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);

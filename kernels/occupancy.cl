@@ -114,6 +114,23 @@ static uchar name_node(__constant struct part *part, __global const uchar *cells
     return (uchar)level;
 }
 
+// 1 when brick i, of 2^bits cells along a side, has a cell that is not empty.
+static uchar find_brick(__constant struct part *part, __global const uchar *cells,
+                        struct cell_dims dims, int i, int bits) {
+    const int size = 1 << bits;
+    const int columns = (dims.x + size - 1) >> bits, rows = (dims.y + size - 1) >> bits;
+    const int left = i % columns << bits, top = i / columns % rows << bits,
+              front = i / columns / rows << bits;
+    const int right = min(left + size, dims.x), bottom = min(top + size, dims.y),
+              back = min(front + size, dims.z);
+    for (int z = front; z < back; z++)
+        for (int y = top; y < bottom; y++)
+            for (int x = left; x < right; x++)
+                if (!cells[z * part->cell_slice + y * part->cell_row + x])
+                    return 1;
+    return 0;
+}
+
 // One pass over the `count` cells of a part, from `in` to `out`, in which empty cells hold `empty`
 // at first. `linear` tells that the kernel interpolates between table entries. One kernel for all
 // passes, because each one more costs a cold start an eighth of a second.
@@ -134,6 +151,8 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
                      : (uchar)empty;
     else if (pass == PASS_NAME)
         out[i] = name_node(part, in, dims, (int)i);
+    else if (pass > PASS_BRICK)
+        out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
     else if (pass > PASS_MERGE)
         merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
     else

@@ -13,6 +13,9 @@
 #if DEBUG
 #include "debug.cl"
 #endif
+#if PROBE
+#include "probe_log.cl"
+#endif
 #if SUPERSAMPLING
 #include "resolve.cl"
 #endif
@@ -78,6 +81,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             const struct entry entry = find_entry(part, sample.raw, &present);
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
+#if PROBE
+            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, light.a);
+#endif
             if (!any_lane(visible)) {
                 cursor->next = cursor_leap(part, cells, cursor, i + 1);
                 continue;
@@ -99,7 +105,14 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                       SAMPLE_NUMBER(crossing, t), x, y, z, CHOOSE(zero, sample.raw, visible), &r, &g,
                       &b);
 #endif
+<<<<<<< HEAD
+#if PROBE
+            log_colour(crossing, r, g, b);
+#endif
+            mix_add(&mixture, &light, r, g, b, CHOOSE(zero, strength, visible));
+=======
             mix_add(&mixture, layer, r, g, b, CHOOSE(zero, strength, visible));
+>>>>>>> main
         }
 
         i -= alive; // one on, where the ray still runs
@@ -159,3 +172,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
 #endif
     store_pixels(world, picture, left, top, &ray, &light);
 }
+
+#if PROBE
+#include "probe.cl"
+#endif

@@ -5,17 +5,17 @@
 #ifndef SPAN_CL
 #define SPAN_CL
 
+#include "shared/probe.h"
 #include "traverse/cursor.cl"
 
-#ifndef SKIP
-#define SKIP SKIP_NONE // how empty space is skipped
-#endif
 #if SKIP == SKIP_NONE
 #include "traverse/none.cl"
 #else
 #include "occupancy.cl"
 #if SKIP == SKIP_OCTREE
 #include "traverse/octree.cl"
+#elif SKIP == SKIP_BVH
+#include "traverse/bvh.cl"
 #else
 #include "traverse/grid.cl"
 #endif
@@ -23,6 +23,9 @@
 
 #ifndef SHADING
 #define SHADING 0 // 1: some volume is shaded
+#endif
+#ifndef PROBE
+#define PROBE 0 // 1: one ray writes down what it meets
 #endif
 #ifndef CAPACITY
 #define CAPACITY 1 // parts the kernel has room for: 1, 8 or WORLD_PART_MAX
@@ -44,10 +47,18 @@ struct crossing {
     int count;
 #if SHADING
     struct ray ray;
+#endif
+#if SHADING || PROBE
     real t_first; // where sample 0 lies
 #endif
+<<<<<<< HEAD
+#if PROBE
+    __global struct probe_sample *log;
+    int logged; // samples that have been there to write
+=======
 #if MODELS & MODELS_BACKWARD
     integer mirror; // what the numbers of a sample front to back and back to front add up to
+>>>>>>> main
 #endif
 };
 
@@ -89,7 +100,9 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     }
 #if SHADING
     crossing->ray = *ray;
-    crossing->t_first = fmin(t_near, 1e9f) + world->phase * world->step_mm;
+#endif
+#if SHADING || PROBE
+    crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
 #endif
 #if MODELS & MODELS_BACKWARD
     const float samples_per_mm = 1.0f / world->step_mm;

@@ -6,6 +6,7 @@
 
 #include "cli/options.h"
 #include "cli/picture.h"
+#include "cli/probe.h"
 #include "cli/progress.h"
 #include "cli/render_frames.h"
 #include "cli/report.h"
@@ -69,6 +70,18 @@ static json_t *describe_stereo(const struct run *run) {
     return object;
 }
 
+static json_t *describe_bricks(const struct pel_brick_statistics *bricks) {
+    json_t *object = json_object();
+    json_object_set_new(object, "size", json_integer(bricks->size));
+    json_object_set_new(object, "total", json_integer((json_int_t)bricks->total));
+    json_object_set_new(object, "active", json_integer((json_int_t)bricks->active));
+    json_object_set_new(object, "clusters", json_integer((json_int_t)bricks->clusters));
+    json_object_set_new(object, "activity_ms", report_number(bricks->activity_ms));
+    json_object_set_new(object, "cluster_ms", report_number(bricks->cluster_ms));
+    json_object_set_new(object, "tree_ms", report_number(bricks->tree_ms));
+    return object;
+}
+
 static int print_json(const struct run *run) {
     const struct pel_render_statistics *statistics = &run->statistics;
     json_t *object = json_object();
@@ -92,6 +105,10 @@ static int print_json(const struct run *run) {
         json_object_set_new(object, "debug",
                             json_pack("{s:f, s:f, s:f}", "min", statistics->debug.min, "max",
                                       statistics->debug.max, "mean", statistics->debug.mean));
+    json_object_set_new(object, "skip", json_string(report_skip(statistics->skip)));
+    json_object_set_new(object, "skip_bytes", json_integer((json_int_t)statistics->skip_bytes));
+    if (statistics->bricks.size > 0)
+        json_object_set_new(object, "bricks", describe_bricks(&statistics->bricks));
     const struct {
         const char *name;
         double ms;
@@ -100,6 +117,7 @@ static int print_json(const struct run *run) {
         {"prepare_ms", statistics->prepare_ms},
         {"build_ms", statistics->build_ms},
         {"upload_ms", statistics->upload_ms},
+        {"skip_ms", statistics->skip_ms},
         {"render_ms", statistics->render_ms},
         {"download_ms", statistics->download_ms},
         {"save_ms", run->save_ms},
@@ -140,6 +158,12 @@ int command_render(int argc, char **argv) {
     run.load_ms = report_clock_ms() - begin_ms;
     if (!run.scene || (options.frame >= 0 && !pel_scene_set_frame(run.scene, options.frame))) {
         status = cli_fail_library();
+        goto done;
+    }
+    if (options.probe) {
+        run.renderer = pel_renderer_create(&options.renderer);
+        status = run.renderer ? probe_print(run.renderer, run.scene, options.pixel, options.json)
+                              : cli_fail_library();
         goto done;
     }
     bool many = render_frames_wanted(run.scene, &options);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/options.h"
+#include "cli/probe.h"
 
 enum {
     KEY_SIZE = CLI_KEY_COMMAND,
@@ -42,6 +43,7 @@ enum {
     KEY_DEPTH,
     KEY_ALPHA,
     KEY_SET,
+    KEY_PIXEL,
     KEY_JSON,
     KEY_FRAMES,
     KEY_FRAME,
@@ -105,7 +107,7 @@ static const struct argp_option argp_options[] = {
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
     {"termination", KEY_TERMINATION, "X", 0, "End a ray once its opacity exceeds this; 1 for never",
      0},
-    {"skip", KEY_SKIP, "auto|none|grid|distance|octree", 0,
+    {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh", 0,
      "How empty space is skipped; the picture is the same with each", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,
@@ -127,6 +129,8 @@ static const struct argp_option argp_options[] = {
     {0, 0, NULL, 0, "Everything else:", 6},
     {"set", KEY_SET, "KEY=VALUE", 0,
      "Set any key of the scene, such as volumes.0.density=0.2; may be repeated", 0},
+    {"pixel", KEY_PIXEL, "X,Y", 0,
+     "Make no picture, but print what the ray of this pixel meets: spans and samples", 0},
     {"json", KEY_JSON, NULL, 0, "Write timings and what was used as JSON to standard output", 0},
     {"quiet", 'q', NULL, 0, "Say nothing but errors", 0},
     {0},
@@ -343,6 +347,10 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case 'q':
         options->quiet = true;
+        break;
+    case KEY_PIXEL:
+        options->probe = true;
+        good = probe_parse(argument, options->pixel) == PEL_OK;
         break;
     case KEY_JSON:
         options->json = true;

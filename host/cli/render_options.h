@@ -14,6 +14,8 @@ struct render_options {
     struct pel_renderer_options renderer;
     const char *frames; // which ones; NULL: not said
     int frame;          // -1: not said
+    bool probe;         // follow the ray of one pixel instead of making a picture
+    int pixel[2];       // which
     bool json, quiet;
 };
 

@@ -28,6 +28,11 @@ const char *report_reader(enum pel_reader reader) {
     return reader == PEL_READER_IMAGE ? "image" : reader == PEL_READER_BUFFER ? "buffer" : "auto";
 }
 
+const char *report_skip(enum pel_skip skip) {
+    static const char *const names[] = {"auto", "none", "grid", "distance", "octree", "bvh"};
+    return names[skip];
+}
+
 json_t *report_number(double value) {
     return isfinite(value) ? json_real(value) : json_null();
 }

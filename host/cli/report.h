@@ -13,6 +13,7 @@ const char *report_bytes(char text[REPORT_TEXT_BYTES], uint64_t bytes);
 
 // "auto", "buffer" or "image".
 const char *report_reader(enum pel_reader reader);
+const char *report_skip(enum pel_skip skip);
 
 // A JSON number, or null for NaN and infinities.
 json_t *report_number(double value);

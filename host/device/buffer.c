@@ -32,6 +32,10 @@ void pel_buffer_destroy(struct pel_buffer *buffer) {
     free(buffer);
 }
 
+size_t pel_buffer_bytes(const struct pel_buffer *buffer) {
+    return buffer ? buffer->bytes : 0;
+}
+
 bool pel_buffer_write(struct pel_buffer *buffer, size_t offset, size_t bytes, const void *data) {
     if (bytes == 0)
         return true;

@@ -33,6 +33,9 @@ bool pel_device_finish(struct pel_device *device);
 struct pel_buffer *pel_buffer_create(struct pel_device *device, size_t bytes, const char *purpose);
 void pel_buffer_destroy(struct pel_buffer *buffer);
 
+// Its size; 0 for NULL.
+size_t pel_buffer_bytes(const struct pel_buffer *buffer);
+
 // Both wait until the bytes have been copied.
 bool pel_buffer_write(struct pel_buffer *buffer, size_t offset, size_t bytes, const void *data);
 bool pel_buffer_read(struct pel_buffer *buffer, size_t offset, size_t bytes, void *data);

@@ -1,15 +1,27 @@
-// occupancy.c - which cells of each part may show something, derived on the device.
+// occupancy.c - which cells of each part may show something, derived on the device, and what a way
+// to skip makes of that.
 //
 // Nothing but counts of visible table entries is sent, so editing a transfer function costs two
 // look-ups a cell and a few passes over the cells (three for distances, and for an octree as much
-// as two and a seventh), and moving the camera or a volume costs nothing here.
+// as two and a seventh), and moving the camera or a volume costs nothing here. For `bvh` the
+// active bricks come back, a byte each, and are clustered here.
 #include "render/occupancy.h"
 
+#include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
+#include "base/memory.h"
 #include "shared/grid.h"
+#include "world/bricks.h"
 
 enum { GROUP = 16 };
+
+static double now_ms(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
+}
 
 static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device, size_t cells) {
     if (occupancy->cells && occupancy->scratch && cells <= occupancy->cell_count)
@@ -25,12 +37,18 @@ static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device
 
 // Padding is cleared, so that keys can be compared byte by byte.
 static void make_key(struct pel_occupancy_key *key, const struct pel_world *world,
-                     const struct pel_layout *layout, enum pel_skip skip) {
+                     const struct pel_layout *layout, enum pel_skip skip,
+                     const struct pel_brick_settings *bricks) {
     memset(key, 0, sizeof *key);
     memcpy(&key->layout, layout, sizeof *layout);
     key->part_count = world->bytes.part_count;
     key->linear = world->table_linear;
-    key->tree = skip == PEL_SKIP_OCTREE;
+    // `grid` and `distance` go by the same cells.
+    key->skip = skip == PEL_SKIP_GRID ? PEL_SKIP_DISTANCE : skip;
+    if (skip == PEL_SKIP_BVH) {
+        key->brick_size = bricks->size;
+        key->apart = bricks->apart;
+    }
     for (int p = 0; p < key->part_count; p++) {
         const struct part *part = &world->bytes.parts[p];
         struct part *copy = &key->parts[p];
@@ -45,13 +63,6 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
         copy->surface_count = part->surface_count;
         copy->surface_values = part->surface_values;
     }
-}
-
-// The number of cells of part p: those up to the next part's.
-static size_t part_cells(const struct pel_world *world, int p) {
-    size_t end =
-        p + 1 < world->bytes.part_count ? world->bytes.parts[p + 1].cells : world->cell_count;
-    return end - world->bytes.parts[p].cells;
 }
 
 static bool set_pass(struct pel_occupancy *occupancy, const struct pel_buffer *in,
@@ -80,9 +91,8 @@ static bool spread_distances(struct pel_occupancy *occupancy, size_t count) {
 }
 
 // Joins empty nodes level by level up to the root, and tells every cell.
-static bool grow_octree(struct pel_occupancy *occupancy, const struct part *part, size_t count) {
-    size_t dims[3] = {(size_t)part->cell_row, (size_t)(part->cell_slice / part->cell_row),
-                      count / (size_t)part->cell_slice};
+static bool grow_octree(struct pel_occupancy *occupancy, const size_t cells[3]) {
+    size_t dims[3] = {cells[0], cells[1], cells[2]};
     bool good = true;
     for (uint32_t level = 1; good && (dims[0] > 1 || dims[1] > 1 || dims[2] > 1); level++) {
         for (int i = 0; i < 3; i++)
@@ -90,15 +100,30 @@ static bool grow_octree(struct pel_occupancy *occupancy, const struct part *part
         good = set_pass(occupancy, occupancy->scratch, occupancy->scratch, PASS_MERGE + level) &&
                launch(occupancy, dims[0] * dims[1] * dims[2]);
     }
-    return good && run_pass(occupancy, occupancy->scratch, occupancy->cells, count, PASS_NAME);
+    return good && run_pass(occupancy, occupancy->scratch, occupancy->cells,
+                            cells[0] * cells[1] * cells[2], PASS_NAME);
+}
+
+// Reduces the cells of part p to bricks, at the beginning of the part's cells.
+static bool find_bricks(struct pel_occupancy *occupancy, const struct pel_world *world, int p,
+                        int size) {
+    size_t dims[3];
+    size_t bricks = pel_hierarchy_bricks(world, p, size, dims);
+    uint32_t bits = 0;
+    while (CELL_VOXELS << bits < size)
+        bits++;
+    return set_pass(occupancy, occupancy->scratch, occupancy->cells, PASS_BRICK + bits) &&
+           launch(occupancy, bricks);
 }
 
 static bool derive_part(struct pel_occupancy *occupancy, const struct pel_world *world,
                         const struct pel_buffer *world_buffer,
-                        const struct pel_residency *residency, enum pel_skip skip, int p) {
+                        const struct pel_residency *residency, int p) {
     struct pel_kernel *kernel = occupancy->kernel;
-    bool tree = skip == PEL_SKIP_OCTREE;
-    size_t count = part_cells(world, p);
+    size_t cells[3];
+    pel_world_cells(world, p, cells);
+    size_t count = cells[0] * cells[1] * cells[2];
+    bool tree = occupancy->key.skip == PEL_SKIP_OCTREE, bvh = occupancy->key.skip == PEL_SKIP_BVH;
     return pel_kernel_set_buffer(kernel, 0, world_buffer) &&
            pel_kernel_set_buffer(kernel, 1, residency->ranges) &&
            pel_kernel_set_buffer(kernel, 2, occupancy->visible.buffer) &&
@@ -107,16 +132,31 @@ static bool derive_part(struct pel_occupancy *occupancy, const struct pel_world 
            pel_kernel_set_u32(kernel, 7, world->table_linear) &&
            pel_kernel_set_u32(kernel, 9, tree ? 1 : CELL_DISTANCE_MAX) &&
            run_pass(occupancy, occupancy->cells, occupancy->scratch, count, PASS_OCCUPY) &&
-           (tree ? grow_octree(occupancy, &world->bytes.parts[p], count)
-                 : spread_distances(occupancy, count));
+           (tree  ? grow_octree(occupancy, cells)
+            : bvh ? find_bricks(occupancy, world, p, occupancy->key.brick_size)
+                  : spread_distances(occupancy, count));
+}
+
+// Brings the active bricks here and the hierarchy over their clusters to the device.
+static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *device,
+                            const struct pel_world *world, const struct pel_brick_settings *bricks,
+                            double start_ms) {
+    uint8_t *active = pel_allocate(world->cell_count, 1);
+    bool good = active && pel_buffer_read(occupancy->cells, 0, world->cell_count, active);
+    double activity_ms = now_ms() - start_ms;
+    good = good && pel_hierarchy_build(&occupancy->hierarchy, device, world, active, bricks);
+    occupancy->hierarchy.statistics.activity_ms = activity_ms;
+    free(active);
+    return good;
 }
 
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,
                           const struct pel_residency *residency, const struct pel_kernel *render,
-                          enum pel_skip skip) {
+                          enum pel_skip skip, const struct pel_brick_settings *settings) {
     if (skip == PEL_SKIP_NONE || world->bytes.part_count == 0)
         return make_room(occupancy, device, 1);
+    double start_ms = now_ms();
     bool changed = false;
     if (!occupancy->kernel)
         occupancy->kernel = pel_kernel_sibling(render, "occupancy");
@@ -125,23 +165,38 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
                            world->visible_words * sizeof *world->visible, 0, "visible entries",
                            &changed))
         return false;
+    struct pel_brick_settings bricks = pel_bricks_resolve(settings);
     struct pel_occupancy_key key;
-    make_key(&key, world, &residency->layout, skip);
+    make_key(&key, world, &residency->layout, skip, &bricks);
     if (!changed && memcmp(&key, &occupancy->key, sizeof key) == 0)
         return true;
-    occupancy->key.part_count = 0;
-    for (int p = 0; p < world->bytes.part_count; p++)
-        if (!derive_part(occupancy, world, world_buffer, residency, skip, p))
-            return false;
-    if (!pel_device_finish(device))
-        return false;
     memcpy(&occupancy->key, &key, sizeof key);
-    return true;
+    bool good = true;
+    for (int p = 0; good && p < world->bytes.part_count; p++)
+        good = derive_part(occupancy, world, world_buffer, residency, p);
+    pel_hierarchy_finish(&occupancy->hierarchy);
+    good =
+        good && (skip == PEL_SKIP_BVH ? build_hierarchy(occupancy, device, world, &bricks, start_ms)
+                                      : pel_device_finish(device));
+    if (!good)
+        occupancy->key.part_count = 0;
+    return good;
+}
+
+uint64_t pel_occupancy_bytes(const struct pel_occupancy *occupancy) {
+    return pel_buffer_bytes(occupancy->cells) + pel_buffer_bytes(occupancy->scratch) +
+           pel_buffer_bytes(occupancy->visible.buffer) +
+           pel_buffer_bytes(occupancy->hierarchy.nodes);
+}
+
+const struct pel_buffer *pel_occupancy_map(const struct pel_occupancy *occupancy) {
+    return occupancy->hierarchy.nodes ? occupancy->hierarchy.nodes : occupancy->cells;
 }
 
 void pel_occupancy_finish(struct pel_occupancy *occupancy) {
     pel_kernel_destroy(occupancy->kernel);
     pel_mirror_finish(&occupancy->visible);
+    pel_hierarchy_finish(&occupancy->hierarchy);
     pel_buffer_destroy(occupancy->cells);
     pel_buffer_destroy(occupancy->scratch);
     memset(occupancy, 0, sizeof *occupancy);

@@ -1,7 +1,9 @@
-// occupancy.h - which cells of each part may show something, derived on the device.
+// occupancy.h - which cells of each part may show something, derived on the device, and what a way
+// to skip makes of that.
 #ifndef PEL_RENDER_OCCUPANCY_H
 #define PEL_RENDER_OCCUPANCY_H
 
+#include "render/hierarchy.h"
 #include "render/mirror.h"
 #include "render/residency.h"
 #include "world/world.h"
@@ -11,8 +13,10 @@ struct pel_occupancy_key {
     struct pel_layout layout;
     struct part parts[WORLD_PART_MAX]; // with only the members that matter filled in
     int part_count;
-    bool linear; // tables are interpolated
-    bool tree;   // the cells hold nodes of an octree instead of distances
+    bool linear;        // tables are interpolated
+    enum pel_skip skip; // for which
+    int brick_size;     // of `bvh`
+    bool apart;         //
 };
 
 // Zero-initialise.
@@ -20,9 +24,10 @@ struct pel_occupancy {
     struct pel_kernel *kernel;
     struct pel_mirror visible; // counts of visible entries
     struct pel_buffer *cells,
-        *scratch;                 // a byte for each cell of each part, and room to work in
-    size_t cell_count;            // room in both
-    struct pel_occupancy_key key; // what they are for; part_count 0 = nothing
+        *scratch;                   // a byte for each cell of each part, and room to work in
+    size_t cell_count;              // room in both
+    struct pel_hierarchy hierarchy; // for `bvh`
+    struct pel_occupancy_key key;   // what they are for; part_count 0 = nothing
 };
 
 // Derives what `skip` (not AUTO) goes by for a world whose bytes are in `world_buffer`, unless it
@@ -32,7 +37,13 @@ struct pel_occupancy {
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,
                           const struct pel_residency *residency, const struct pel_kernel *render,
-                          enum pel_skip skip);
+                          enum pel_skip skip, const struct pel_brick_settings *settings);
+
+// The bytes on the device for it.
+uint64_t pel_occupancy_bytes(const struct pel_occupancy *occupancy);
+
+// What the kernel skips by. Borrowed.
+const struct pel_buffer *pel_occupancy_map(const struct pel_occupancy *occupancy);
 void pel_occupancy_finish(struct pel_occupancy *occupancy);
 
 #endif

@@ -17,6 +17,7 @@
 #include "render/kernel_cache.h"
 #include "render/mirror.h"
 #include "render/occupancy.h"
+#include "render/probe.h"
 #include "render/residency.h"
 #include "render/resolve.h"
 #include "render/settings.h"
@@ -119,25 +120,12 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
                 pel_kernel_set_buffer(kernel, index++, light) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->sample_counts);
     index++; // the first tile is set for each batch
-    good = good && pel_kernel_set_buffer(kernel, index++, renderer->occupancy.cells);
+    good = good && pel_kernel_set_buffer(kernel, index++, pel_occupancy_map(&renderer->occupancy));
     if (variant->supersampling) {
         index++; // the ray's number is set for each pass
         good = good && pel_kernel_set_buffer(kernel, index++, renderer->resolve.refined);
     }
-    struct pel_residency *residency = &renderer->residency;
-    if (residency->layout.reader == PEL_READER_BUFFER) {
-        for (int b = 0; good && b < VOXEL_BUFFERS; b++)
-            good = pel_kernel_set_buffer(kernel, index++, residency->buffers[b]);
-        return good;
-    }
-    uint32_t atlas_count = 0;
-    for (int class = 0; good && class < VOXEL_CLASS_COUNT; class ++) {
-        if (!(variant->voxels & 1 << class))
-            continue;
-        good = pel_kernel_set_texture(kernel, index++, residency->atlases[class]);
-        atlas_count++;
-    }
-    return good && pel_kernel_set_u32(kernel, index, atlas_count);
+    return good && pel_residency_bind(&renderer->residency, kernel, index, variant->voxels);
 }
 
 // Runs the kernel over `count` tiles from `first` on and waits for it.
@@ -281,10 +269,16 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, kernel, statistics->skip) ||
+                              &renderer->residency, kernel, statistics->skip,
+                              &scene->render.bricks) ||
         !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);
+    if (statistics->skip != PEL_SKIP_NONE) {
+        statistics->skip_bytes = pel_occupancy_bytes(&renderer->occupancy) +
+                                 pel_buffer_bytes(renderer->residency.ranges);
+        statistics->bricks = renderer->occupancy.hierarchy.statistics;
+    }
     statistics->work_group = (int)extent->group;
     return kernel;
 }
@@ -354,39 +348,44 @@ static struct pel_image *render_background(const struct pel_world *world) {
     return image;
 }
 
+// Plans where the voxels lie and makes the world's bytes, which go by that. Zeroes the statistics.
+static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
+                 struct pel_layout *layout, struct pel_world *world,
+                 struct pel_render_statistics *statistics) {
+    double mark = now_ms();
+    const struct pel_device_info *info = pel_device_describe(renderer->device);
+    *statistics = (struct pel_render_statistics){0};
+    if (!pel_settings_check(scene))
+        return false;
+    struct pel_layout_limits limits =
+        pel_residency_limits(renderer->device, renderer->options.max_allocation_bytes);
+    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
+    if (!pel_layout_plan(layout, scene, &limits, renderer->options.reader, info->reader) ||
+        !pel_world_build(world, scene, layout))
+        return false;
+    size_t pixel_bytes = sizeof(float4) + (world->supersampling ? PEL_RESOLVE_BYTES : 0);
+    if (!check_memory(layout, &limits, pixels * pixel_bytes)) {
+        pel_world_finish(world);
+        return false;
+    }
+    statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
+    statistics->reader = layout->reader;
+    statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
+    statistics->prepare_ms = lap_ms(&mark);
+    return true;
+}
+
 struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct pel_scene *scene,
                                    const struct pel_render_options *options,
                                    struct pel_render_statistics *statistics) {
-    double mark = now_ms();
-    const struct pel_device_info *info = pel_device_describe(renderer->device);
     struct pel_render_statistics unwanted;
     if (!statistics)
         statistics = &unwanted;
-    *statistics = (struct pel_render_statistics){0};
     uint64_t uploaded_before = pel_device_uploaded_bytes(renderer->device);
-    if (!pel_settings_check(scene))
-        return NULL;
-
-    // Where the voxels lie decides what the world's bytes say.
-    struct pel_layout_limits limits =
-        pel_residency_limits(renderer->device, renderer->options.max_allocation_bytes);
     struct pel_layout layout;
-    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
-    if (!pel_layout_plan(&layout, scene, &limits, renderer->options.reader, info->reader))
-        return NULL;
     struct pel_world world;
-    if (!pel_world_build(&world, scene, &layout))
+    if (!plan(renderer, scene, &layout, &world, statistics))
         return NULL;
-    size_t pixel_bytes = sizeof(float4) + (world.supersampling ? PEL_RESOLVE_BYTES : 0);
-    if (!check_memory(&layout, &limits, pixels * pixel_bytes)) {
-        pel_world_finish(&world);
-        return NULL;
-    }
-    statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
-    statistics->reader = layout.reader;
-    statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
-    statistics->prepare_ms = lap_ms(&mark);
-
     struct pel_image *image;
     if (world.bytes.part_count == 0) {
         image = render_background(&world);
@@ -398,11 +397,50 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
                    : NULL;
     }
     pel_world_finish(&world);
+    const struct pel_device_info *info = pel_device_describe(renderer->device);
     memcpy(statistics->device, info->name, sizeof statistics->device);
     memcpy(statistics->driver, info->driver, sizeof statistics->driver);
     statistics->device_bytes = pel_device_allocated_bytes(renderer->device);
     statistics->uploaded_bytes = pel_device_uploaded_bytes(renderer->device) - uploaded_before;
     return image;
+}
+
+bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *scene, int x, int y,
+                        struct pel_probe *probe) {
+    *probe = (struct pel_probe){0};
+    if (x < 0 || y < 0 || x >= scene->render.width || y >= scene->render.height)
+        return pel_fail(PEL_ERROR_ARGUMENT, "pixel %d,%d is outside the picture of %d x %d", x, y,
+                        scene->render.width, scene->render.height);
+    // The copy borrows everything the scene owns.
+    struct pel_scene seen = *scene;
+    seen.render.debug = PEL_DEBUG_NONE;
+    seen.render.supersampling.n = 0;
+    seen.render.supersampling.pattern = PEL_PATTERN_REGULAR;
+    seen.render.supersampling.filter = PEL_RECONSTRUCTION_BOX;
+    struct pel_render_statistics statistics;
+    struct pel_layout layout;
+    struct pel_world world;
+    if (!plan(renderer, &seen, &layout, &world, &statistics))
+        return false;
+    statistics.lanes = 1;
+    world.probe = true;
+    struct extent extent;
+    struct pel_kernel *kernel = NULL;
+    bool good = world.bytes.part_count == 0 ||
+                (kernel = prepare(renderer, &seen, &layout, &world, &extent, &statistics)) != NULL;
+    const struct pel_probe_inputs inputs = {
+        .device = renderer->device,
+        .render = kernel,
+        .residency = &renderer->residency,
+        .world_buffer = renderer->world.buffer,
+        .tables = renderer->tables.buffer,
+        .cells = renderer->occupancy.cells,
+        .scene = &seen,
+        .world = &world,
+    };
+    good = good && pel_probe_run(&inputs, x, y, probe);
+    pel_world_finish(&world);
+    return good;
 }
 
 struct pel_volume *pel_renderer_bake(struct pel_renderer *renderer, const char *recipe,

@@ -181,6 +181,24 @@ bool pel_residency_update(struct pel_residency *residency, const struct pel_scen
     return good;
 }
 
+bool pel_residency_bind(const struct pel_residency *residency, struct pel_kernel *kernel, int index,
+                        int voxels) {
+    bool good = true;
+    if (residency->layout.reader == PEL_READER_BUFFER) {
+        for (int b = 0; good && b < VOXEL_BUFFERS; b++)
+            good = pel_kernel_set_buffer(kernel, index++, residency->buffers[b]);
+        return good;
+    }
+    uint32_t atlas_count = 0;
+    for (int class = 0; good && class < VOXEL_CLASS_COUNT; class ++) {
+        if (!(voxels & 1 << class))
+            continue;
+        good = pel_kernel_set_texture(kernel, index++, residency->atlases[class]);
+        atlas_count++;
+    }
+    return good && pel_kernel_set_u32(kernel, index, atlas_count);
+}
+
 void pel_residency_finish(struct pel_residency *residency) {
     for (int b = 0; b < VOXEL_BUFFERS; b++) {
         pel_buffer_destroy(residency->buffers[b]);

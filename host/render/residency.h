@@ -22,6 +22,11 @@ struct pel_layout_limits pel_residency_limits(const struct pel_device *device,
 bool pel_residency_update(struct pel_residency *residency, const struct pel_scene *scene,
                           const struct pel_layout *layout);
 
+// Gives a kernel its MEMORY_PARAMETERS from parameter `index` on. `voxels` are the classes
+// (VOXELS_*) it was built for.
+bool pel_residency_bind(const struct pel_residency *residency, struct pel_kernel *kernel, int index,
+                        int voxels);
+
 // Frees everything on the device.
 void pel_residency_finish(struct pel_residency *residency);
 

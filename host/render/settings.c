@@ -2,6 +2,7 @@
 #include "render/settings.h"
 
 #include "base/error.h"
+#include "world/bricks.h"
 #include "world/model.h"
 #include "world/step.h"
 
@@ -35,5 +36,6 @@ bool pel_settings_check(const struct pel_scene *scene) {
         return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
     if ((unsigned)settings->debug > PEL_DEBUG_TIME)
         return pel_fail(PEL_ERROR_ARGUMENT, "debug view %d", (int)settings->debug);
-    return pel_model_check(scene) && check_supersampling(&settings->supersampling);
+    return pel_model_check(scene) && pel_bricks_check(&settings->bricks) &&
+           check_supersampling(&settings->supersampling);
 }

@@ -11,6 +11,8 @@ static int skip_knob(enum pel_skip skip) {
         return SKIP_GRID;
     case PEL_SKIP_OCTREE:
         return SKIP_OCTREE;
+    case PEL_SKIP_BVH:
+        return SKIP_BVH;
     case PEL_SKIP_AUTO:
     case PEL_SKIP_DISTANCE:
         break;
@@ -37,6 +39,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .table_linear = world->table_linear,
         .supersampling = world->supersampling,
         .jitter = world->jitter,
+        .probe = world->probe,
         .debug = world->bytes.debug != DEBUG_NONE && world->bytes.debug != DEBUG_TIME,
         .table_global =
             sizeof world->bytes + world->table_words * sizeof *world->tables > constant_bytes,
@@ -47,9 +50,17 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
     snprintf(text, PEL_VARIANT_BYTES,
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
+<<<<<<< HEAD
+             "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d",
+             variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
+             variant->skip, variant->capacity, variant->shading, variant->table_linear,
+             variant->table_global ? "__global" : "__constant", variant->supersampling,
+             variant->jitter, variant->debug, variant->probe);
+=======
              "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DMODELS=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
              variant->jitter, variant->debug, variant->models);
+>>>>>>> main
 }

@@ -8,12 +8,15 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "world/bricks.h"
 
 enum { PICTURE_MAX = 32768 };
 
 static const char *const render_keys[] = {
-    "comment", "size",          "mixing", "step",  "step_mm", "phase", "termination",    "origin",
-    "skip",    "supersampling", "jitter", "debug", "model",   "order", "emission_scale", NULL};
+    "comment", "size",           "mixing", "step",          "step_mm", "phase", "termination",
+    "origin",  "skip",           "bricks", "supersampling", "jitter",  "debug", "model",
+    "order",   "emission_scale", NULL};
+static const char *const brick_keys[] = {"comment", "size", "cluster", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
@@ -21,7 +24,7 @@ static const char *const output_keys[] = {"comment", "file", "depth", "alpha", N
 // In the order of their enums.
 static const char *const mixing_names[] = {"sum", "over", NULL};
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
-static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", NULL};
+static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", "bvh", NULL};
 static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
                                           "work-group", "work-item", "time",  NULL};
 static const char *const pattern_names[] = {"regular",        "jittered",   "n-rooks",
@@ -101,6 +104,22 @@ static bool read_supersampling(struct pel_supersampling *supersampling,
     return good;
 }
 
+static bool read_bricks(struct pel_brick_settings *bricks, const struct pel_scene_node *render) {
+    struct pel_scene_node node, size;
+    if (!pel_node_member(&node, render, "bricks"))
+        return true;
+    bool cluster = !bricks->apart;
+    if (!pel_node_check_object(&node, brick_keys) ||
+        !pel_node_get_integer(&node, "size", 8, 128, &bricks->size) ||
+        !pel_node_get_bool(&node, "cluster", &cluster))
+        return false;
+    bricks->apart = !cluster;
+    if (pel_bricks_check(bricks))
+        return true;
+    pel_node_member(&size, &node, "size");
+    return pel_node_fail(&size, "must be 8, 16, 32, 64 or 128, not %d", bricks->size);
+}
+
 static bool read_render(struct pel_render_settings *render, const struct pel_scene_node *scene) {
     struct pel_scene_node node;
     if (!pel_node_member(&node, scene, "render"))
@@ -116,7 +135,7 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
         pel_node_get_number(&node, "termination", &termination_range, &render->termination) &&
         pel_node_get_name(&node, "origin", origin_names, &origin) &&
         pel_node_get_name(&node, "skip", skip_names, &skip) &&
-        read_supersampling(&render->supersampling, &node) &&
+        read_bricks(&render->bricks, &node) && read_supersampling(&render->supersampling, &node) &&
         pel_node_get_bool(&node, "jitter", &render->jitter) &&
         pel_node_get_name(&node, "debug", debug_names, &debug);
     render->mixing = (enum pel_mixing)mixing;

@@ -99,8 +99,10 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         if (world->bytes.part_count == WORLD_PART_MAX)
             return pel_fail(PEL_ERROR_UNSUPPORTED, "the volumes are cut into more than %d parts",
                             WORLD_PART_MAX);
+        world->instances[world->bytes.part_count] = (int)(instance - scene->instances);
         struct part *part = &world->bytes.parts[world->bytes.part_count++];
         *part = *pattern;
+        part->number = world->bytes.part_count - 1;
         for (int i = 0; i < 3; i++)
             part->voxel_from_world[i] = to_float4(voxel_from_world.m[i], voxel_from_world.m[i][3]);
         double low[3], high[3], shift[3] = {1, 1, slab->border[0]}, origin[3];
@@ -286,7 +288,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
         visible += !scene->instances[k].hidden;
     if (visible > 0 && !pel_scene_bounds(scene, &bounds))
         return false;
-    double centre[3];
+    double *centre = world->centre;
     for (int i = 0; i < 3; i++)
         centre[i] = (bounds.low[i] + bounds.high[i]) / 2;
     fill_frame(world, scene, &bounds, centre);
@@ -313,6 +315,21 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     if (!good)
         pel_world_finish(world);
     return good;
+}
+
+void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {
+    const struct part *parts = world->bytes.parts;
+    size_t end = p + 1 < world->bytes.part_count ? parts[p + 1].cells : world->cell_count;
+    cells[0] = (size_t)parts[p].cell_row;
+    cells[1] = (size_t)(parts[p].cell_slice / parts[p].cell_row);
+    cells[2] = (end - parts[p].cells) / (size_t)parts[p].cell_slice;
+}
+
+double pel_world_value(const struct pel_scene *scene, int instance, enum pel_reader reader,
+                       double raw) {
+    const struct pel_volume *volume = scene->volumes[scene->instances[instance].volume];
+    double stored = raw * pel_reader_factor(reader, pel_voxel_class(volume->type));
+    return volume->slope * (stored + stored_bias(volume->type)) + volume->intercept;
 }
 
 void pel_world_finish(struct pel_world *world) {

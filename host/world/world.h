@@ -21,7 +21,10 @@ struct pel_world {
     bool shaded;        // some part is
     bool supersampling; // several rays a pixel, or one that does not go through its centre
     bool jitter;        // every ray has a phase of its own
-    bool depth;         // strengths are optical depths: more than one part, and extinctions add
+    bool probe;         // one ray is to write down what it meets
+    double centre[3];   // world millimetres of the origin of the kernels' world
+    int instances[WORLD_PART_MAX]; // which instance of the scene each part is of
+    bool depth; // strengths are optical depths: more than one part, and extinctions add
 };
 
 // Fills a world from a scene whose volumes lie as `layout` says. Fails (MEMORY, ARGUMENT) on
@@ -30,5 +33,12 @@ struct pel_world {
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout);
 void pel_world_finish(struct pel_world *world);
+
+// The cells of part p along x, y and z (shared/grid.h).
+void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]);
+
+// The value, in the file's own unit, of what a reader gave for an instance's volume.
+double pel_world_value(const struct pel_scene *scene, int instance, enum pel_reader reader,
+                       double raw);
 
 #endif

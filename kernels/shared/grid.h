@@ -13,9 +13,11 @@
 
 // Which pass over the cells finds the empty ones; 0, 1 and 2 spread distances along x, y and z. For an octree, pass
 // PASS_MERGE + l joins eight empty nodes of level l - 1 to one of level l, in the node's first cell, and PASS_NAME tells
-// every cell of the largest node that it lies in.
+// every cell of the largest node that it lies in. Pass PASS_BRICK + b finds the bricks of 2^b cells along a side, one
+// after the other, in which some cell is not empty.
 #define PASS_OCCUPY 3
 #define PASS_NAME 4
 #define PASS_MERGE 16
+#define PASS_BRICK 32
 
 #endif

@@ -68,9 +68,11 @@ struct part {
     i32 model;                  // one of MODEL_*
     float step_mm;              // the distance of its samples where it has a grid of its own
     float density;              //
+    i32 number;                 // of the part
+    i32 pad[3];
 };
 
-SHARED_ASSERT(sizeof(struct part) == 320, part_size);
+SHARED_ASSERT(sizeof(struct part) == 336, part_size);
 
 struct world {
     struct camera camera;
@@ -95,6 +97,6 @@ struct world {
     struct part parts[WORLD_PART_MAX];
 };
 
-SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 320 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 336 * WORLD_PART_MAX, world_size);
 
 #endif

@@ -8,12 +8,19 @@
 
 #include "ray.cl"
 
+#ifndef SKIP
+#define SKIP SKIP_NONE // how empty space is skipped
+#endif
+
 #define SAMPLE_NEVER INT_MAX // the part has nothing more to show
 
 // The samples first <= i < end of a ray lie inside the part, and none before `next` may be visible. Positions
 // in memory coordinates are origin + i * delta; lanes that miss the part rest at a safe place inside it.
 struct cursor {
     integer first, end, next;
+#if SKIP == SKIP_BVH
+    integer inside; // before this sample, the ray is inside a cluster
+#endif
     real ox, oy, oz;
     real dx, dy, dz;
 };
@@ -38,6 +45,9 @@ INLINE struct cursor cursor_begin(__constant struct world *world, __constant str
     cursor.first = CHOOSE((integer)(SAMPLE_NEVER), first, runs);
     cursor.end = CHOOSE((integer)(0), end, runs);
     cursor.next = cursor.first;
+#if SKIP == SKIP_BVH
+    cursor.inside = (integer)(0);
+#endif
 
     const real t_first = t_near + phase * world->step_mm;
     const float4 shift = part->memory_from_voxel;

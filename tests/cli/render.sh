@@ -132,6 +132,16 @@ check_json 'x["device"] and x["driver"]'
 expect 0 '' render data/box.nii.gz "${small[@]}" -o json.png --json --supersample 2 --adaptive 0.25
 check_json '0 < x["refined"] < 1 and x["rays"] == 32 * 24 + round(4 * x["refined"] * 32 * 24)'
 
+# A debug view is a picture of numbers, and one ray tells what it meets.
+expect 0 '' render data/box.nii.gz "${small[@]}" --debug samples -o samples.png --json
+check_json 'x["debug"]["min"] == 0 and abs(x["debug"]["mean"] * 32 * 24 - x["samples"]) < 1'
+expect 2 'render\.debug="samlpes": must be none, samples, ' render data/box.nii.gz --debug samlpes
+expect 0 '^spans    1$' render data/box.nii.gz "${small[@]}" --pixel 16,12
+expect 0 '' render data/box.nii.gz "${small[@]}" --pixel 16,12 --json
+check_json 'x["pixel"] == [16, 12] and x["samples"] and x["spans"][0]["volumes"] == ["box.nii.gz"]'
+expect 2 '^pellucid: pixel 32,12 is outside the picture of 32 x 24' render data/box.nii.gz "${small[@]}" --pixel 32,12
+expect 2 "^pellucid: --pixel: '3' is not of the form X,Y" render data/box.nii.gz --pixel 3
+
 # Before anything is rendered: names nobody knows, folders that are not there, the input itself.
 expect 2 '^pellucid: box\.jpg: a picture.s name ends in \.png, \.tif, \.tiff or \.ppm' render data/box.nii.gz -o box.jpg
 expect 4 '^pellucid: nowhere/box\.png: ' render data/box.nii.gz -o nowhere/box.png

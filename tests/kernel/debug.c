@@ -1,4 +1,5 @@
 // debug.c - debug views: their numbers are those that geometry demands.
+#include <math.h>
 #include <stdlib.h>
 
 #include "support/judge.h"
@@ -116,8 +117,55 @@ static void test_what_made_a_pixel(void **state) {
     pel_renderer_destroy(renderer);
 }
 
+// What the ray of one pixel meets, against geometry, and what it brings, against the picture.
+static void test_probe(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 0);
+    struct pel_scene *scene = two_boxes();
+    struct pel_probe probe;
+    assert_true(pel_renderer_probe(renderer, scene, 12, 8, &probe));
+    // The camera is at z = 100 and looks along -z; the first sample lies a quarter of a millimetre
+    // in.
+    static const double spans[3][2] = {{92.75, 97.75}, {97.75, 102.75}, {102.75, 107.75}};
+    static const uint32_t instances[3] = {2, 3, 1};
+    assert_int_equal(probe.span_count, 3);
+    for (int i = 0; i < 3; i++) {
+        assert_float_equal(probe.spans[i].from_mm, spans[i][0], 1e-4);
+        assert_float_equal(probe.spans[i].to_mm, spans[i][1], 1e-4);
+        assert_int_equal(probe.spans[i].instances, instances[i]);
+    }
+    assert_int_equal(probe.sample_count, 40);
+    assert_false(probe.cut);
+    double clear = 1;
+    for (int i = 0; i < probe.sample_count; i++) {
+        const struct pel_probe_sample *sample = &probe.samples[i];
+        assert_float_equal(sample->value, 100, 0);
+        assert_float_equal(sample->opacity, 1 - sqrt(1 - 0.01), 1e-6);
+        assert_float_equal(sample->distance_mm, 92.75 + 0.5 * sample->number, 1e-4);
+        assert_float_equal(sample->position[0], 0.5, 1e-4);
+        assert_float_equal(sample->position[1], -0.5, 1e-4);
+        assert_float_equal(sample->position[2], 100 - sample->distance_mm, 1e-4);
+        // Both volumes of one sample see the same opacity before it.
+        bool second = i > 0 && sample->number == probe.samples[i - 1].number;
+        assert_float_equal(1 - sample->accumulated, second ? clear / (1 - sample->opacity) : clear,
+                           1e-5);
+        clear *= 1 - sample->opacity;
+    }
+    struct pel_image *image = pel_renderer_render(renderer, scene, NULL, NULL);
+    assert_non_null(image);
+    for (int c = 0; c < 4; c++)
+        assert_float_equal(probe.rgba[c], image->rgba[4 * (8 * WIDTH + 12) + c], 1e-6);
+    pel_image_destroy(image);
+    pel_probe_finish(&probe);
+    assert_false(pel_renderer_probe(renderer, scene, WIDTH, 0, &probe));
+    assert_int_equal(pel_error_code(), PEL_ERROR_ARGUMENT);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts),
-                                       cmocka_unit_test(test_what_made_a_pixel)};
+                                       cmocka_unit_test(test_what_made_a_pixel),
+                                       cmocka_unit_test(test_probe)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,6 +59,7 @@ static const struct {
     AT(part, model),
     AT(part, step_mm),
     AT(part, density),
+    AT(part, number),
     SIZE(world),
     AT(world, camera),
     AT(world, bounds_low),

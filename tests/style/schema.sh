@@ -48,6 +48,7 @@ pairs = {
     "scene_read_model.c:surface_keys": (defs["surface"]["anyOf"][1], "iso"),
     "transfer_file.c:known_keys": (own_transfer, "transfer"),
     "scene_read_settings.c:render_keys": (defs["render"], "render"),
+    "scene_read_settings.c:brick_keys": (defs["bricks"], "bricks"),
     "scene_read_settings.c:supersampling_keys": (defs["supersampling"], "supersampling"),
     "scene_read_settings.c:output_keys": (defs["output"], "output"),
     "scene_read_stereo.c:stereo_keys": (defs["stereo"], "stereo"),
@@ -102,7 +103,7 @@ def place(section, key, value):
     holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"}, "raw": {"dims": [1, 1, 1]},
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
                "render": {}, "stereo": {}, "output": {}, "light": {}, "shading": {}, "supersampling": {}, "iso": {"value": 1},
-               "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
+               "bricks": {}, "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
     if section == "transform":
         holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
                        "comment": {"file": "a"}}.get(key, {}))
@@ -118,7 +119,7 @@ def place(section, key, value):
         return {"volumes": [volume], **holder}
     if section in ("generate",):
         volume = {"generate": holder}
-    elif section == "supersampling":
+    elif section in ("supersampling", "bricks"):
         return {"volumes": [volume], "render": {section: holder}}
     elif section == "track":
         return {"volumes": [volume], "animation": {"tracks": [holder]}}
