@@ -357,7 +357,14 @@ PEL_API bool pel_transform_save(const struct pel_matrix *world_from_world, const
 // interpolation there, or at the centres as VTK and OpenVKL have it.
 enum pel_extent { PEL_EXTENT_CELL, PEL_EXTENT_POINT };
 
-enum pel_filter { PEL_FILTER_LINEAR, PEL_FILTER_NEAREST };
+// How values between voxels come about. The cubic ones take the 4^3 voxels around: the B-spline
+// smooths, Catmull and Rom's spline goes through the voxels' values and may overshoot beyond them.
+enum pel_filter {
+    PEL_FILTER_LINEAR,
+    PEL_FILTER_NEAREST,
+    PEL_FILTER_CUBIC_B_SPLINE,
+    PEL_FILTER_CATMULL_ROM,
+};
 
 // How overlapping volumes share one sample. docs/picture.md has the formulae.
 enum pel_mixing {

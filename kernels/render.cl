@@ -105,14 +105,10 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                       SAMPLE_NUMBER(crossing, t), x, y, z, CHOOSE(zero, sample.raw, visible), &r, &g,
                       &b);
 #endif
-<<<<<<< HEAD
 #if PROBE
             log_colour(crossing, r, g, b);
 #endif
-            mix_add(&mixture, &light, r, g, b, CHOOSE(zero, strength, visible));
-=======
             mix_add(&mixture, layer, r, g, b, CHOOSE(zero, strength, visible));
->>>>>>> main
         }
 
         i -= alive; // one on, where the ray still runs

@@ -87,7 +87,8 @@ static const struct argp_option argp_options[] = {
     {0, 0, NULL, 0, "The volumes, all of them:", 3},
     {"transfer", KEY_TRANSFER, "PRESET|FILE", 0, "Transfer function", 0},
     {"density", KEY_DENSITY, "X", 0, "Multiplies the extinction", 0},
-    {"filter", KEY_FILTER, "linear|nearest", 0, "Interpolation between voxels", 0},
+    {"filter", KEY_FILTER, "linear|nearest|cubic-b-spline|catmull-rom", 0,
+     "Interpolation between voxels; the cubic ones are smoother and slower", 0},
     {"shading", KEY_SHADING, "on|off|KEY=VALUE,...", OPTION_ARG_OPTIONAL,
      "Light them by the gradient of their values; or not; or with keys of the scene's shading, "
      "such "

@@ -50,17 +50,9 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
     snprintf(text, PEL_VARIANT_BYTES,
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
-<<<<<<< HEAD
-             "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d",
+             "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
-             variant->jitter, variant->debug, variant->probe);
-=======
-             "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DMODELS=%d",
-             variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
-             variant->skip, variant->capacity, variant->shading, variant->table_linear,
-             variant->table_global ? "__global" : "__constant", variant->supersampling,
-             variant->jitter, variant->debug, variant->models);
->>>>>>> main
+             variant->jitter, variant->debug, variant->probe, variant->models);
 }

@@ -17,7 +17,8 @@ static const char *const volume_keys[] = {
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};
-static const char *const filter_names[] = {"linear", "nearest", NULL};
+static const char *const filter_names[] = {"linear", "nearest", "cubic-b-spline", "catmull-rom",
+                                           NULL};
 
 static bool read_palette(struct pel_volume_plan *plan, const struct pel_scene_node *volume) {
     struct pel_scene_node node;
