@@ -26,6 +26,28 @@ static struct cell_dims cell_dims(__constant struct part *part, uint count) {
     return dims;
 }
 
+// The range of the values that samples in cell i may have. A cubic filter reads a voxel more on
+// each side, so its cells have a share in their neighbours; and Catmull & Rom's weights, whose
+// absolute values add up to at most 5/4 along an axis, lead out of the range of the voxels by at
+// most ((5/4)^3 - 1) / 2 of it on either side.
+static float2 reachable(__constant struct part *part, __global const float2 *ranges,
+                        struct cell_dims dims, int i) {
+    if (!(part->filter & FILTERS_CUBIC))
+        return ranges[i];
+    const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
+    float2 range = (float2)(INFINITY, -INFINITY);
+    for (int n = 0; n < 27; n++) {
+        const int nx = x + n % 3 - 1, ny = y + n / 3 % 3 - 1, nz = z + n / 9 - 1;
+        if (nx < 0 || ny < 0 || nz < 0 || nx >= dims.x || ny >= dims.y || nz >= dims.z)
+            continue;
+        const float2 near = ranges[nz * part->cell_slice + ny * part->cell_row + nx];
+        range = (float2)(fmin(range.x, near.x), fmax(range.y, near.y));
+    }
+    const float beyond =
+        part->filter == FILTERS_CATMULL_ROM ? (range.y - range.x) * (61.0f / 128.0f) : 0.0f;
+    return range.x > range.y ? range : (float2)(range.x - beyond, range.y + beyond);
+}
+
 // Whether a surface of the part may lie in a cell with a range of values.
 static bool has_surface(__constant struct part *part, float2 range) {
     __constant const float *values = (__constant const float *)&part->surface_values;
@@ -146,7 +168,8 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     in += part->cells;
     out += part->cells;
     if (pass == PASS_OCCUPY)
-        out[i] = occupied(part, ranges[part->ranges + i], visible + part->visible, linear)
+        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, (int)i),
+                          visible + part->visible, linear)
                      ? 0
                      : (uchar)empty;
     else if (pass == PASS_NAME)

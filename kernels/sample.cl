@@ -1,7 +1,8 @@
 // sample.cl - the raw value of a volume at a position in memory coordinates.
 //
-// The two readers give the same function, sample_part, and say in MEMORY_PARAMETERS what the kernel
-// has to be given for it.
+// The two readers give the same function, fetch_part, which takes the nearest voxel or interpolates
+// linearly, and say in MEMORY_PARAMETERS what the kernel has to be given for it. Everything beyond
+// is made of that.
 #ifndef SAMPLE_CL
 #define SAMPLE_CL
 
@@ -26,11 +27,8 @@
 #else
 #define IS_CLASS(part, class) ((VOXELS & (class)) != 0 && (part)->voxels == (class))
 #endif
-#if FILTERS == FILTERS_LINEAR || FILTERS == FILTERS_NEAREST
-#define IS_NEAREST(part) (FILTERS == FILTERS_NEAREST)
-#else
-#define IS_NEAREST(part) ((part)->filter == FILTERS_NEAREST)
-#endif
+#define IS_FILTER(part, which)                                                                     \
+    (FILTERS == (which) || ((FILTERS & (which)) != 0 && (part)->filter == (which)))
 
 // A sample: the value that the transfer function asks for, and a colour volume's own colour in 0..1.
 struct sample {
@@ -49,5 +47,17 @@ INLINE real mix_lanes(real a, real b, real weight) {
 #else
 #include "sample_image.cl"
 #endif
+#if FILTERS & FILTERS_CUBIC
+#include "cubic.cl"
+#endif
+
+INLINE struct sample sample_part(MEMORY_PARAMETERS, __constant struct part *part, real x, real y,
+                                 real z) {
+#if FILTERS & FILTERS_CUBIC
+    if (IS_FILTER(part, FILTERS_CUBIC_B_SPLINE) || IS_FILTER(part, FILTERS_CATMULL_ROM))
+        return sample_cubic(MEMORY_ARGUMENTS, part, x, y, z);
+#endif
+    return fetch_part(MEMORY_ARGUMENTS, part, IS_FILTER(part, FILTERS_NEAREST), x, y, z);
+}
 
 #endif

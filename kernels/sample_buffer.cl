@@ -115,9 +115,8 @@ INLINE void sample_rgba(struct sample *s, __global const int *voxels, const stru
 }
 #endif
 
-INLINE struct sample sample_part(MEMORY_PARAMETERS, __constant struct part *part, real x, real y,
-                                 real z) {
-    const bool nearest = IS_NEAREST(part);
+INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
+                                real x, real y, real z) {
     const real half_voxel = (real)(nearest ? 0.5f : 0.0f);
     // Positions are positive, so truncation is floor.
     const integer ix = TO_INTEGER(x + half_voxel), iy = TO_INTEGER(y + half_voxel),

@@ -39,12 +39,13 @@
 
 __constant sampler_t filter =
     CLK_NORMALIZED_COORDS_FALSE | CLK_ADDRESS_CLAMP_TO_EDGE |
-    (FILTERS & FILTERS_LINEAR ? CLK_FILTER_LINEAR : CLK_FILTER_NEAREST);
+    (FILTERS & (FILTERS_LINEAR | FILTERS_CUBIC_B_SPLINE) ? CLK_FILTER_LINEAR : CLK_FILTER_NEAREST);
 
-INLINE float4 read_atlas(MEMORY_PARAMETERS, __constant struct part *part, float x, float y, float z) {
+INLINE float4 read_atlas(MEMORY_PARAMETERS, __constant struct part *part, bool nearest, float x,
+                         float y, float z) {
     // Texel centres lie at halves, and there a linear filter reads one texel.
     float4 at = (float4)(x, y, z, 0.0f) + part->atlas_from_memory;
-    if (IS_NEAREST(part))
+    if (nearest)
         at = floor(at + 0.5f);
     at += 0.5f;
 #if VOXELS & VOXELS_U8
@@ -66,19 +67,19 @@ INLINE float4 read_atlas(MEMORY_PARAMETERS, __constant struct part *part, float 
     return (float4)(0.0f);
 }
 
-INLINE struct sample sample_part(MEMORY_PARAMETERS, __constant struct part *part, real x, real y,
-                                 real z) {
+INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
+                                real x, real y, real z) {
     struct sample s;
     float4 texels[LANES];
 #if LANES == 1
-    texels[0] = read_atlas(MEMORY_ARGUMENTS, part, x, y, z);
+    texels[0] = read_atlas(MEMORY_ARGUMENTS, part, nearest, x, y, z);
 #else
     float xs[LANES], ys[LANES], zs[LANES];
     STORE_LANES(x, xs);
     STORE_LANES(y, ys);
     STORE_LANES(z, zs);
     for (int lane = 0; lane < LANES; lane++)
-        texels[lane] = read_atlas(MEMORY_ARGUMENTS, part, xs[lane], ys[lane], zs[lane]);
+        texels[lane] = read_atlas(MEMORY_ARGUMENTS, part, nearest, xs[lane], ys[lane], zs[lane]);
 #endif
 #define RED(lane) texels[lane].x
 #define GREEN(lane) texels[lane].y

@@ -52,6 +52,7 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
     for (int p = 0; p < key->part_count; p++) {
         const struct part *part = &world->bytes.parts[p];
         struct part *copy = &key->parts[p];
+        copy->filter = part->filter;
         copy->table_scale = part->table_scale;
         copy->table_bias = part->table_bias;
         copy->table_last = part->table_last;

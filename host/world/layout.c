@@ -14,6 +14,10 @@ static const uint64_t buffer_limit = (uint64_t)1 << 31;
 // Slabs start at multiples of this, so that wide loads are aligned.
 static const uint64_t slab_alignment = 256;
 
+// Slices of its neighbour that a slab repeats: the gradient at a place less than one voxel beyond
+// its own needs a place one voxel further, and a cubic filter the voxel behind the next there.
+enum { CUT_BORDER = 3 };
+
 int pel_voxel_class(enum pel_voxel_type type) {
     switch (type) {
     case PEL_VOXEL_U8:
@@ -78,8 +82,8 @@ static struct pel_slab *add_slab(struct pel_layout *layout, const struct pel_sce
     slab->class_index = pel_voxel_class(scene->volumes[v]->type);
     slab->first = first;
     slab->count = count;
-    slab->border[0] = first > 0 ? 2 : 1;
-    slab->border[1] = first + count < scene->volumes[v]->dims[2] ? 2 : 1;
+    slab->border[0] = first > 0 ? CUT_BORDER : 1;
+    slab->border[1] = first + count < scene->volumes[v]->dims[2] ? CUT_BORDER : 1;
     slab->ranges = (u32)layout->range_count;
     size_t dims[3], cells = 1;
     pel_slab_dims(slab, scene->volumes[v], dims);
@@ -121,7 +125,7 @@ static bool plan_buffers(struct pel_layout *layout, const struct pel_scene *scen
                             "volume '%s': a layer of %d slices needs %" PRIu64
                             " bytes, the device's largest allocation is %" PRIu64,
                             volume->name, BRICK_SIDE, layer, limit);
-        int slices = whole ? volume->dims[2] : (int)(most - 4);
+        int slices = whole ? volume->dims[2] : (int)(most - 2 * CUT_BORDER);
         for (int first = 0; first < volume->dims[2]; first += slices) {
             int count = volume->dims[2] - first < slices ? volume->dims[2] - first : slices;
             struct pel_slab *slab = add_slab(layout, scene, v, first, count);

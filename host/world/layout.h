@@ -2,9 +2,9 @@
 //
 // A volume is stored with a border of one voxel on every side that repeats its edge. One that is
 // larger than the largest allocation is cut across z into slabs, each with its own border taken
-// from its neighbours, of two voxels so that gradients have no seam there either. With the `image`
-// reader volumes of one class lie in one atlas; with the `buffer` reader volumes share up to
-// VOXEL_BUFFERS buffers.
+// from its neighbours, of three voxels so that cubic filters and gradients have no seam there
+// either. With the `image` reader volumes of one class lie in one atlas; with the `buffer` reader
+// volumes share up to VOXEL_BUFFERS buffers.
 #ifndef PEL_WORLD_LAYOUT_H
 #define PEL_WORLD_LAYOUT_H
 

@@ -17,7 +17,8 @@ static const char *const volume_keys[] = {
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};
-static const char *const filter_names[] = {"linear", "nearest", NULL};
+static const char *const filter_names[] = {"linear", "nearest", "cubic-b-spline", "catmull-rom",
+                                           NULL};
 
 static bool read_palette(struct pel_volume_plan *plan, const struct pel_scene_node *volume) {
     struct pel_scene_node node;
@@ -127,5 +128,6 @@ void pel_scene_plan_finish(struct pel_scene_plan *plan) {
     for (int i = 0; i < PEL_VOLUME_MAX; i++) {
         free(plan->volume[i].file);
         free(plan->volume[i].pose.file);
+        pel_transfer_destroy(plan->volume[i].towards);
     }
 }

@@ -247,6 +247,16 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
         (i32)settings->debug; // the numbers of shared/variant.h are in the order of the enum
 }
 
+static bool fill_filter(struct part *part, const struct pel_instance *instance) {
+    static const i32 filters[] = {FILTERS_LINEAR, FILTERS_NEAREST, FILTERS_CUBIC_B_SPLINE,
+                                  FILTERS_CATMULL_ROM};
+    if ((unsigned)instance->filter > PEL_FILTER_CATMULL_ROM)
+        return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': filter %d", instance->name,
+                        (int)instance->filter);
+    part->filter = filters[instance->filter];
+    return true;
+}
+
 // The parts an instance is cut into.
 static int count_slabs(const struct pel_layout *layout, const struct pel_instance *instance) {
     int count = 0;
@@ -263,8 +273,9 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (instance->hidden)
             continue;
         struct part pattern = {0};
+        if (!fill_filter(&pattern, instance))
+            return false;
         pattern.step_mm = (float)pel_step_of_instance(scene, instance);
-        pattern.filter = instance->filter == PEL_FILTER_NEAREST ? FILTERS_NEAREST : FILTERS_LINEAR;
         world->filters |= pattern.filter;
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;

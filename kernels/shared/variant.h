@@ -21,6 +21,9 @@
 // FILTERS: which filters occur, one bit each.
 #define FILTERS_LINEAR 1
 #define FILTERS_NEAREST 2
+#define FILTERS_CUBIC_B_SPLINE 4
+#define FILTERS_CATMULL_ROM 8
+#define FILTERS_CUBIC (FILTERS_CUBIC_B_SPLINE | FILTERS_CATMULL_ROM)
 
 // SKIP: how empty space is skipped.
 #define SKIP_NONE 0     // not at all

@@ -1,7 +1,7 @@
 // variants.c - kernel variants against the reference, on small scenes of overlapping instances.
 //
-// What a variant is made of comes in 6 ways to read (reader x lanes), 5 sets of voxel classes, 3 of
-// filters, 2 mixings, 3 ways to skip, and tables read at an entry or between entries: 1080 kernels,
+// What a variant is made of comes in 6 ways to read (reader x lanes), 5 sets of voxel classes, 5 of
+// filters, 2 mixings, 3 ways to skip, and tables read at an entry or between entries: 1800 kernels,
 // of a second or more each to compile. A fault that depends on two of these choices shows already
 // if every pair of values occurs together in some kernel, and 30 kernels have them all: a covering
 // array of strength 2 (Cohen et al. 1997), one row for each pair of the two largest factors. What
@@ -32,13 +32,21 @@ static const enum pel_voxel_type types[CLASSES][TURNS] = {
 
 static const char *const set_names[SETS] = {"8 bits", "16 bits", "floats", "colours", "all"};
 
-enum filters { LINEAR, NEAREST, BOTH, FILTERS };
+// By the filters of the two instances.
+enum { FILTERS = 5 };
+static const enum pel_filter filters[FILTERS][2] = {
+    {PEL_FILTER_LINEAR, PEL_FILTER_LINEAR},
+    {PEL_FILTER_NEAREST, PEL_FILTER_NEAREST},
+    {PEL_FILTER_LINEAR, PEL_FILTER_NEAREST},
+    {PEL_FILTER_CUBIC_B_SPLINE, PEL_FILTER_CUBIC_B_SPLINE},
+    {PEL_FILTER_CATMULL_ROM, PEL_FILTER_LINEAR},
+};
 
 static const enum pel_skip skips[] = {PEL_SKIP_NONE, PEL_SKIP_GRID, PEL_SKIP_DISTANCE};
 
 // One row of the covering array.
 struct choice {
-    enum filters filters;
+    int filters; // a row of the table above
     enum pel_mixing mixing;
     enum pel_skip skip;
     bool cliff; // a table so steep that the kernel interpolates between its entries
@@ -48,7 +56,7 @@ struct choice {
 
 static struct choice choose(int way, int set, int turn) {
     return (struct choice){
-        .filters = (enum filters)((way + set) % FILTERS),
+        .filters = (way + set) % FILTERS,
         .mixing = (way / 3 + set) % 2 ? PEL_MIX_OVER : PEL_MIX_SUM,
         .skip = skips[(way + 2 * set) % 3],
         .cliff = (way + set / 2) % 2,
@@ -98,8 +106,8 @@ static void add_pair(struct pel_scene *scene, enum pel_voxel_type type, const st
         pel_matrix_from_quaternion((double[]){0.7, 0.2, -0.3, 0.6}, (double[]){3.3, -2.7, 1.9});
     second->density = 0.7;
     first->extent = second->extent = choice->extent;
-    first->filter = choice->filters == NEAREST ? PEL_FILTER_NEAREST : PEL_FILTER_LINEAR;
-    second->filter = choice->filters == LINEAR ? PEL_FILTER_LINEAR : PEL_FILTER_NEAREST;
+    first->filter = filters[choice->filters][0];
+    second->filter = filters[choice->filters][1];
 }
 
 static struct pel_scene *scene_of(const struct choice *choice, int set, int turn) {

@@ -88,11 +88,65 @@ static void read_linear(double channels[CHANNELS], double *spread, const struct 
     }
 }
 
+// The weights of the four voxels around a place that is a share f of the way from the second one to
+// the third.
+static void cubic_weights(double weights[4], enum pel_filter filter, double f) {
+    double g = 1 - f;
+    if (filter == PEL_FILTER_CUBIC_B_SPLINE) {
+        weights[0] = g * g * g / 6;
+        weights[1] = (4 - 6 * f * f + 3 * f * f * f) / 6;
+        weights[2] = (4 - 6 * g * g + 3 * g * g * g) / 6;
+        weights[3] = f * f * f / 6;
+    } else {
+        weights[0] = (-f + 2 * f * f - f * f * f) / 2;
+        weights[1] = (2 - 5 * f * f + 3 * f * f * f) / 2;
+        weights[2] = (f + 4 * f * f - 3 * f * f * f) / 2;
+        weights[3] = (-f * f + f * f * f) / 2;
+    }
+}
+
+// Voxel number n of the 4^3, its place along axis c in bits 2 c and 2 c + 1.
+static void read_cubic(double channels[CHANNELS], double *spread, const struct pel_volume *volume,
+                       enum pel_filter filter, const double p_voxel[3]) {
+    double weights[3][4], raw[64];
+    for (int c = 0; c < 3; c++)
+        cubic_weights(weights[c], filter, p_voxel[c] - floor(p_voxel[c]));
+    for (int c = 0; c < CHANNELS; c++)
+        channels[c] = 0;
+    for (int n = 0; n < 64; n++) {
+        int voxel[3];
+        double product = 1, own[CHANNELS];
+        for (int c = 0; c < 3; c++) {
+            int tap = n >> (2 * c) & 3;
+            voxel[c] = clamp(floor(p_voxel[c]) + tap - 1, volume->dims[c]);
+            product *= weights[c][tap];
+        }
+        read_voxel(own, volume, voxel);
+        raw[n] = own[RAW];
+        for (int c = 0; c < CHANNELS; c++)
+            channels[c] += product * own[c];
+    }
+    for (int c = RED; c < CHANNELS; c++)
+        channels[c] = fmin(fmax(channels[c], 0), 255);
+
+    // The absolute weights of Catmull and Rom's spline add up to at most 1.25^3 < 2.
+    *spread = 0;
+    for (int c = 0; c < 3; c++) {
+        double greatest = 0;
+        for (int n = 0; n < 64; n++)
+            if ((n >> (2 * c) & 3) < 3)
+                greatest = fmax(greatest, fabs(raw[n] - raw[n + (1 << 2 * c)]));
+        *spread += filter == PEL_FILTER_CATMULL_ROM ? 2 * greatest : greatest;
+    }
+}
+
 bool reference_sample_volume(struct reference_sample *sample, const struct pel_volume *volume,
                              enum pel_filter filter, const double p_voxel[3]) {
     double channels[CHANNELS], spread = 0;
     if (filter == PEL_FILTER_NEAREST)
         read_nearest(channels, volume, p_voxel);
+    else if (filter != PEL_FILTER_LINEAR)
+        read_cubic(channels, &spread, volume, filter, p_voxel);
     else
         read_linear(channels, &spread, volume, p_voxel);
     if (!isfinite(channels[RAW]))

@@ -1,0 +1,74 @@
+// filter.c - cubic filters on the device where they reach beyond a cell or a slab. Every way to
+// read them is among the kernels of variants.c.
+#include <math.h>
+
+#include "shared/brick.h"
+#include "support/judge.h"
+#include "support/picture.h"
+#include "support/scenes.h"
+#include "support/test.h"
+
+// A thin shell of values that linear interpolation never reaches, between voxels of 60 and 200:
+// cells must not be skipped for the voxels they own alone.
+static void test_skip(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
+    const int dims[3] = {40, 20, 20};
+    struct pel_scene *scene = scene_create(24, 16);
+    struct pel_volume *volume = scene_volume_constant(dims, PEL_VOXEL_U8, 60);
+    for (size_t i = 0; i < pel_volume_voxel_count(volume); i++)
+        if (i % 40 > 15 && i % 40 < 24)
+            ((uint8_t *)volume->voxels)[i] = 200;
+    struct pel_instance *instance = scene_add(
+        scene, volume,
+        scene_transfer(
+            (const double[][5]){
+                {0, 1, 0, 0, 0}, {201, 1, 0, 0, 0}, {206, 0, 1, 0, 0.5}, {255, 0, 0, 1, 0.5}},
+            4));
+    instance->filter = PEL_FILTER_CATMULL_ROM;
+    struct pel_render_statistics statistics[2];
+    struct pel_image *pictures[2];
+    for (int n = 0; n < 2; n++) {
+        scene->render.skip = n == 0 ? PEL_SKIP_NONE : PEL_SKIP_DISTANCE;
+        pictures[n] = judge_render(renderer, scene, &statistics[n], n == 0 ? "none" : "skipped");
+    }
+    assert_pictures_within(pictures[1], pictures[0], 0, 0, "skipped");
+    assert_true(statistics[1].samples < statistics[0].samples * 3 / 4);
+    double greatest = 0;
+    for (int i = 0; i < 24 * 16; i++)
+        greatest = fmax(greatest, (double)pictures[1]->rgba[4 * i + 3]);
+    assert_true(greatest > 0.1); // the overshoot is seen at all
+    pel_image_destroy(pictures[0]);
+    pel_image_destroy(pictures[1]);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
+// A volume in slabs is filtered and shaded like a whole one, also where it is cut.
+static void test_slabs(void **state) {
+    (void)state;
+    const int dims[3] = {9, 8, 24};
+    struct pel_scene *scene = scene_create(12, 20);
+    struct pel_volume *volume = scene_volume_waves(dims, PEL_VOXEL_U8, 5, 8);
+    scene_place(volume, (double[]){2, 2, 1.2}, (double[]){0.6, 0, 0, 0.8}, (double[]){0, 0, 0},
+                false);
+    struct pel_instance *instance =
+        scene_add(scene, volume, scene_transfer_gentle((double[]){0, 255}, 0.2, 3));
+    instance->material.shading = PEL_SHADING_BLINN_PHONG;
+    instance->filter = PEL_FILTER_CUBIC_B_SPLINE;
+    struct pel_renderer_options options = {.reader = PEL_READER_BUFFER,
+                                           .max_allocation_bytes = BRICK_VOXELS};
+    struct pel_renderer *renderer = pel_renderer_create(&options);
+    assert_non_null(renderer);
+    pel_image_destroy(judge_render(renderer, scene, NULL, "slabs"));
+    pel_renderer_destroy(renderer);
+    pel_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_skip),
+        cmocka_unit_test(test_slabs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
