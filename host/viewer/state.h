@@ -71,6 +71,7 @@ struct pel_state {
 
     char message[PEL_STATE_SENTENCE]; // to the user
     double message_ms;                // when it was said
+    struct pel_script *script;        // NULL unless one is played
     struct pel_latency *latency;      // NULL unless it is measured
     bool quit;
     double now_ms;

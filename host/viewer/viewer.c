@@ -14,6 +14,7 @@
 #include "viewer/latency.h"
 #include "viewer/panels.h"
 #include "viewer/screen.h"
+#include "viewer/script.h"
 #include "viewer/state.h"
 
 // What has not changed for this long is at rest.
@@ -129,18 +130,64 @@ static void react_to_all(struct pel_state *state) {
     }
 }
 
-// ---- The loop ----------------------------------------------------------------------------------
+// ---- Scripts -----------------------------------------------------------------------------------
 
 static bool is_resting(const struct pel_state *state) {
-    return state->version == state->sent && !state->sent_moving &&
-           (!state->status.busy || state->status.sentence[0]) &&
-           (state->status.sentence[0] || (state->shown.final && state->shown.id == state->version));
+    if (state->version != state->sent || state->sent_moving || state->queue.count > 0 ||
+        pel_hand_is_busy(state) || state->drag != PEL_DRAG_NONE)
+        return false;
+    return state->status.sentence[0] ||
+           (!state->status.busy && state->shown.final && state->shown.id == state->version);
 }
+
+static void do_step(struct pel_state *state, const struct pel_script_step *step) {
+    struct pel_bounds bounds;
+    struct pel_camera camera = step->camera;
+    struct pel_event event = step->event;
+    switch (step->kind) {
+    case PEL_SCRIPT_EVENT:
+        event.path = step->text ? strdup(step->text) : NULL;
+        if (!pel_event_push(&state->queue, &event))
+            free(event.path);
+        break;
+    case PEL_SCRIPT_CAMERA:
+        if (camera.fov_deg == 0)
+            camera.fov_deg = state->navigation.camera.fov_deg;
+        pel_navigation_go(&state->navigation, &camera, step->seconds);
+        pel_state_move_camera(state);
+        break;
+    case PEL_SCRIPT_VIEW:
+        if (!pel_scene_bounds(state->scene, &bounds) ||
+            !pel_navigation_view(&state->navigation, step->text, &bounds, pel_state_aspect(state),
+                                 step->seconds))
+            pel_state_say(state, "no view '%s'", step->text);
+        pel_state_move_camera(state);
+        break;
+    case PEL_SCRIPT_SCREENSHOT:
+        if (!pel_screen_save(state, step->text))
+            pel_state_say(state, "%s", pel_error_message());
+        break;
+    default:
+        break;
+    }
+}
+
+// Does what is due. A screenshot shows what was drawn, so no step follows another unseen.
+static void play_script(struct pel_state *state) {
+    const struct pel_script_step *step =
+        state->script ? pel_script_next(state->script, state->now_ms / 1e3, is_resting(state))
+                      : NULL;
+    if (step)
+        do_step(state, step);
+}
+
+// ---- The loop ----------------------------------------------------------------------------------
 
 static double wait_seconds(const struct pel_state *state) {
     if (state->redraw || state->queue.count > 0)
         return 0;
-    if (pel_hand_is_busy(state) || state->latency)
+    if (pel_hand_is_busy(state) || state->latency ||
+        (state->script && !pel_script_is_over(state->script)))
         return 0.005;
     if (state->version != state->sent || state->sent_moving)
         return 0.02;
@@ -156,6 +203,8 @@ static bool is_over(const struct pel_state *state) {
         return pel_latency_is_over(state->latency);
     if (options->frames > 0 && state->shown_count >= options->frames)
         return true;
+    if (state->script && !pel_script_is_over(state->script))
+        return false;
     return options->screenshot && options->frames == 0 && is_resting(state);
 }
 
@@ -167,6 +216,7 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
         state->now_ms = now_ms;
         if (state->latency)
             pel_latency_begin_turn(state->latency, state);
+        play_script(state);
         react_to_all(state);
         ask_for_picture(state);
         take_picture(state);
@@ -202,6 +252,11 @@ static enum pel_error start(struct pel_state *state, char *sentence, size_t byte
     if (state->options->scene_path)
         snprintf(state->scene_path, sizeof state->scene_path, "%s", state->options->scene_path);
     state->now_ms = pel_state_clock_ms();
+    if (state->options->script) {
+        state->script = pel_script_load(state->options->script, sentence, bytes);
+        if (!state->script)
+            return PEL_ERROR_FORMAT;
+    }
     state->worker = pel_worker_create(&state->options->renderer, pel_window_wake);
     if (!state->worker)
         return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot start the rendering thread");
@@ -229,6 +284,7 @@ enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *se
     pel_event_finish(&state->queue);
     pel_history_destroy(state->history);
     pel_latency_destroy(state->latency);
+    pel_script_destroy(state->script);
     pel_scene_destroy(state->scene);
     free(state);
     return code;
