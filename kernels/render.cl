@@ -13,6 +13,9 @@
 #if DEBUG
 #include "debug.cl"
 #endif
+#if MODELS & MODELS_EMISSION
+#include "exact.cl"
+#endif
 #if PROBE
 #include "probe_log.cl"
 #endif
@@ -153,8 +156,12 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     find_crossing(world, cells, &ray, &crossing);
     integer samples = (integer)(0);
     struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)};
+#if MODELS & MODELS_EMISSION
+    light = follow_exactly(world, table, MEMORY_ARGUMENTS, &ray, &samples);
+#else
     if (crossing.count > 0)
         light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
+#endif
 
     const float4 behind = world->background;
     const real clear = 1.0f - light.a;
