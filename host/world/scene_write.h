@@ -48,6 +48,7 @@ void pel_scene_write_camera(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_lights(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_stereo(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_volumes(struct pel_scene_writer *writer, json_t *root);
+void pel_scene_write_animation(struct pel_scene_writer *writer, json_t *root); // after all others
 void pel_scene_write_source(struct pel_scene_writer *writer, json_t *volume,
                             const struct pel_volume_source *source);
 void pel_scene_write_pose(struct pel_scene_writer *writer, json_t *volume,

@@ -58,12 +58,19 @@ static const char *const rich[] = {
     "   'adaptive': 0.1}},"
     " 'stereo': {'kind': 'matrix', 'separation': 5, 'convergence': 77.5, 'swap': true,"
     "   'toe_in': true, 'matrix': [[1, 0, 0, 0, 0, 0.1], [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1]]},"
+    " 'animation': {'fps': 10, 'frames': 20, 'frame': 5, 'tracks': ["
+    "   {'orbit': {'axis': 'up', 'turns': 2}, 'times': [0, 2]}, {'key': 'volumes.1.density', "
+    "'frames': [0, 10],"
+    "   'values': [0, 1], 'interpolation': 'smooth'}, {'key': "
+    "'volumes.first.transfer.opacity_unit', 'values': [1, 2]},"
+    "   {'key': 'render.step', 'values': [1, 2]}]},"
     " 'output': {'file': 'out/picture.png', 'depth': 16, 'alpha': 'premultiplied'}}",
     "{'volumes': [{'file': 'a.raw', 'raw': {'dims': [2, 3, 4], 'offset': 0}, 'time': 0,"
     "   'channel': 0, 'transfer': {'points': [[0, '#ffffff', 0], [1, '#102030', 0.5]]}, 'shading': "
     "true}],"
     " 'background': 'none', 'render': {'step_mm': 0.37},"
-    " 'stereo': {'kind': 'red-blue', 'separation': 0}, 'output': {'file': '-'}}",
+    " 'stereo': {'kind': 'red-blue', 'separation': 0}, 'animation': {'duration': 2}, 'output': "
+    "{'file': '-'}}",
 };
 
 // ---- The same scene ----------------------------------------------------------------------------
@@ -111,6 +118,7 @@ static void assert_same_scene(const struct pel_scene *a, const struct pel_scene 
     assert_memory_equal(a->lights, b->lights, sizeof a->lights);
     assert_memory_equal(&a->render, &b->render, sizeof a->render);
     assert_memory_equal(&a->stereo, &b->stereo, sizeof a->stereo);
+    assert_memory_equal(&a->timeline, &b->timeline, sizeof a->timeline);
     assert_int_equal(a->output.depth, b->output.depth);
     assert_int_equal(a->output.premultiplied, b->output.premultiplied);
 }
@@ -288,6 +296,30 @@ static void test_nameless_volume(void **state) {
 }
 
 // What is written reads like what people write.
+// Tracks go with their volumes.
+static void test_animation(void **state) {
+    (void)state;
+    struct pel_scene *scene = load(test_write_scene("rich.json", rich[0]));
+    assert_true(pel_scene_set_frame(scene, 10));
+    assert_float_equal(scene->instances[1].density, 1, 0);
+    assert_true(pel_scene_move(scene, 1, 0));
+    struct pel_scene *again = save_and_load(scene, test_temporary_path("saved.json"));
+    assert_float_equal(again->timeline.frame, 10, 0);
+    assert_float_equal(again->instances[0].density, 1, 0);
+    assert_float_equal(again->instances[1].transfer->opacity_unit_mm,
+                       scene->instances[1].transfer->opacity_unit_mm, 0);
+    assert_true(pel_scene_set_frame(again, 0));
+    assert_float_equal(again->instances[0].density, 0, 0);
+    assert_string_equal(again->instances[0].name, "head-pair");
+    pel_scene_destroy(again);
+    assert_true(pel_scene_remove(scene, 0));
+    again = save_and_load(scene, test_temporary_path("saved.json"));
+    assert_int_equal(again->timeline.frame_count, 20);
+    assert_int_equal(again->instance_count, 1);
+    pel_scene_destroy(again);
+    pel_scene_destroy(scene);
+}
+
 static void test_look(void **state) {
     (void)state;
     struct pel_scene *scene = load(test_write_scene(
@@ -335,7 +367,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip), cmocka_unit_test(test_every_key),
         cmocka_unit_test(test_paths),      cmocka_unit_test(test_nameless_volume),
-        cmocka_unit_test(test_look),       cmocka_unit_test(test_transfer),
+        cmocka_unit_test(test_animation),  cmocka_unit_test(test_look),
+        cmocka_unit_test(test_transfer),
     };
     return cmocka_run_group_tests(tests, test_write_volumes, NULL);
 }
