@@ -37,9 +37,9 @@ static void change_filter(struct pel_state *state) {
 }
 
 static void change_mixing(struct pel_state *state) {
-    int mixing = next((int)state->scene->render.mixing, 1, pel_names_mixing());
+    int mixing = next((int)state->scene->render.mixing, 1, pel_mixing_names());
     state->scene->render.mixing = (enum pel_mixing)mixing;
-    pel_state_say(state, "volumes mix by %s", pel_names_mixing()[mixing]);
+    pel_state_say(state, "volumes mix by %s", pel_mixing_names()[mixing]);
     pel_state_change(state, "mixing");
 }
 

@@ -3,13 +3,14 @@
 
 #include <stddef.h>
 
-const char *const *pel_names_mixing(void) {
-    static const char *const names[] = {"sum", "over", NULL};
+const char *const *pel_names_model(void) {
+    static const char *const names[] = {"the scene's", "absorption", "emission", "mip", "minip",
+                                        "average",     "iso",        "thesis",   NULL};
     return names;
 }
 
 const char *const *pel_names_filter(void) {
-    static const char *const names[] = {"linear", "nearest", NULL};
+    static const char *const names[] = {"linear", "nearest", "cubic B-spline", "Catmull-Rom", NULL};
     return names;
 }
 
@@ -24,7 +25,8 @@ const char *const *pel_names_light(void) {
 }
 
 const char *const *pel_names_skip(void) {
-    static const char *const names[] = {"automatic", "none", "grid", "distance", "octree", NULL};
+    static const char *const names[] = {"automatic", "none", "grid", "distance",
+                                        "octree",    "bvh",  NULL};
     return names;
 }
 

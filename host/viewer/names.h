@@ -3,7 +3,7 @@
 #ifndef PEL_VIEWER_NAMES_H
 #define PEL_VIEWER_NAMES_H
 
-const char *const *pel_names_mixing(void);
+const char *const *pel_names_model(void);
 const char *const *pel_names_filter(void);
 const char *const *pel_names_shading(void);
 const char *const *pel_names_light(void);

@@ -60,8 +60,15 @@ static void draw_choices(struct pel_state *state, struct pel_instance *instance)
         instance->material.shading = (enum pel_shading)shading;
         pel_panel_changed(state, "shading");
     }
+    int model = (int)instance->model;
+    if (pel_widget_choose("model", pel_names_model(), &model)) {
+        instance->model = (enum pel_model)model;
+        pel_panel_changed(state, "optical model");
+    }
+    if (state->scene->render.mixing == PEL_MIX_PRIORITY)
+        pel_panel_slide(state, "priority", &instance->priority, -10, 10, "%.1f");
     int mixing = (int)state->scene->render.mixing;
-    if (pel_widget_choose("mixing (all)", pel_names_mixing(), &mixing)) {
+    if (pel_widget_choose("mixing (all)", pel_mixing_names(), &mixing)) {
         state->scene->render.mixing = (enum pel_mixing)mixing;
         pel_panel_changed(state, "mixing");
     }
