@@ -82,7 +82,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
 #if PROBE
-            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, light.a);
+            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, layer->a);
 #endif
             if (!any_lane(visible)) {
                 cursor->next = cursor_leap(part, cells, cursor, i + 1);
