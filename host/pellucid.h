@@ -245,6 +245,9 @@ PEL_API struct pel_transfer *pel_transfer_preset(const char *name);
 
 // Reads a transfer function: Pellucid's own JSON, or ParaView's colour-map JSON.
 PEL_API struct pel_transfer *pel_transfer_load(const char *path);
+
+// Writes one as Pellucid's own JSON, through a temporary that is renamed at the end.
+PEL_API bool pel_transfer_save(const struct pel_transfer *transfer, const char *path);
 PEL_API struct pel_transfer *pel_transfer_copy(const struct pel_transfer *transfer);
 PEL_API void pel_transfer_destroy(struct pel_transfer *transfer);
 
@@ -366,10 +369,18 @@ enum pel_filter {
     PEL_FILTER_CATMULL_ROM,
 };
 
-// How overlapping volumes share one sample. docs/picture.md has the formulae.
+// How overlapping volumes share one sample. docs/mixing.md has formulae, pictures and sources.
 enum pel_mixing {
     PEL_MIX_SUM,  // extinctions add, colour is the extinction-weighted mean; order does not matter
     PEL_MIX_OVER, // blended front to back at each sample in the order of the list
+    PEL_MIX_ORDERED,  // each volume keeps its own step; samples are blended as they come on the ray
+    PEL_MIX_MAX,      // the volume of the greatest extinction hides the others
+    PEL_MIX_PRIORITY, // the volume of the greatest `priority` that shows anything hides the others
+    // Of constructive solid geometry, on extinctions; colours are means as in sum, of difference
+    // the first volume's.
+    PEL_MIX_UNION,        // the greatest
+    PEL_MIX_INTERSECTION, // the least, of all visible volumes
+    PEL_MIX_DIFFERENCE,   // the first visible volume's less all others'
 };
 
 // How light is gathered in a volume along a ray. docs/picture.md, "Optical models", has the
@@ -397,6 +408,8 @@ struct pel_surface {
     bool coloured;  // it has a colour of its own; otherwise the transfer function's
     double rgb[3];  // straight, 0..1
 };
+// The names of the kinds of mixing in the order of the enum; the list ends with NULL.
+PEL_API const char *const *pel_mixing_names(void);
 
 // Where the samples of a ray are counted from.
 enum pel_sample_origin {
@@ -441,6 +454,7 @@ struct pel_instance {
     enum pel_model model;          //
     int surface_count;             // of model iso; 0: one of the middle value, opaque
     struct pel_surface surfaces[PEL_SURFACE_MAX];
+    double priority; // of PEL_MIX_PRIORITY: the greater one wins, of equals the first in the list
 };
 
 #define PEL_LIGHT_MAX 8
@@ -538,6 +552,16 @@ struct pel_output_settings {
     bool premultiplied; // PNG alpha as computed instead of straight
 };
 
+// How long a scene's animation is, and which of its frames the scene shows.
+struct pel_timeline {
+    int frame_count; // 0: there is no animation
+    double fps;      // frames per second
+    double frame;    // 0..frame_count
+};
+
+// What a scene was made of, for pel_scene_set_frame.
+struct pel_scene_source;
+
 // Where a volume's voxels came from, so that a scene file can say it. All-zero: from the program.
 struct pel_volume_source {
     char *file; // owned by the scene; as pel_volume_load takes it
@@ -562,7 +586,9 @@ struct pel_scene {
     struct pel_render_settings render;
     struct pel_stereo stereo;
     struct pel_output_settings output;
+    struct pel_timeline timeline;
     char *text; // owned; the scene as JSON after all overrides, as it goes into the picture
+    struct pel_scene_source *source; // owned, perhaps shared; NULL unless it was loaded
 };
 
 // Reads a scene file, or one or more volume files in place of a scene (then: a percentile window,
@@ -575,6 +601,13 @@ PEL_API struct pel_scene *pel_scene_load(const char *path, const char *const *ov
 PEL_API struct pel_scene *pel_scene_from_files(const char *const *paths, int path_count,
                                                const char *const *overrides, int override_count);
 PEL_API void pel_scene_destroy(struct pel_scene *scene);
+
+// Makes a scene with an animation show another frame, whole or between two: it is as if it had been
+// loaded with the values of that frame, but volumes that stay are not loaded again, so that nothing
+// of them is sent to a device anew. What the caller changed in the scene since is lost. Fails
+// (ARGUMENT) when there is no animation or no such frame, and like pel_scene_load when a value
+// cannot be; the scene then stays as it was.
+PEL_API bool pel_scene_set_frame(struct pel_scene *scene, double frame);
 
 // An empty scene with every default, to be filled by a program. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_create(void);
@@ -610,6 +643,15 @@ PEL_API bool pel_scene_move(struct pel_scene *scene, int instance, int to);
 // transforms stay. Fails as pel_volume_load does, and ARGUMENT for a volume without a source; the
 // scene is then as before.
 PEL_API bool pel_scene_reload(struct pel_scene *scene, int volume);
+
+// The scene as JSON: what pel_scene_save writes to `path`, whose folder the files in it are
+// relative to. NULL gives it compact, with absolute paths, as for the text in a picture. Memory to
+// free(), or NULL on failure (MEMORY; ARGUMENT when a volume came from no file).
+PEL_API char *pel_scene_text(const struct pel_scene *scene, const char *path);
+
+// Writes a scene file, through a temporary that is renamed at the end. Loading it gives a scene
+// that renders to the same picture.
+PEL_API bool pel_scene_save(const struct pel_scene *scene, const char *path);
 
 // The world bounds of one instance's box, and of all visible instances (false if there is none).
 PEL_API void pel_instance_bounds(const struct pel_scene *scene, int instance,
@@ -838,6 +880,26 @@ PEL_API bool pel_image_save(const struct pel_image *image, const char *path,
 // Tells before a long computation whether a picture could be saved there: ARGUMENT when the
 // extension is none of those above, FILE when the folder does not exist or cannot be written.
 PEL_API bool pel_image_check_path(const char *path);
+
+// ---- Videos ------------------------------------------------------------------------------------
+
+// A video being written, by the program ffmpeg: .mp4 (H.264), .mkv (likewise), .webm (VP9) or .gif.
+struct pel_video;
+
+// True when a path's extension is one of those.
+PEL_API bool pel_video_is_path(const char *path);
+
+// Starts ffmpeg, which writes to a temporary that takes the place of `path` in pel_video_finish.
+// NULL on failure (ARGUMENT; UNSUPPORTED when ffmpeg is not installed; FILE).
+PEL_API struct pel_video *pel_video_create(const char *path, int width, int height, double fps);
+
+// Appends a picture of that size as it is over black. Fails (FILE) with ffmpeg's last words.
+PEL_API bool pel_video_add(struct pel_video *video, const struct pel_image *image);
+
+// Ends the video and destroys it, in any case: FILE with ffmpeg's last words. Without this,
+// pel_video_destroy leaves no file behind.
+PEL_API bool pel_video_finish(struct pel_video *video);
+PEL_API void pel_video_destroy(struct pel_video *video);
 
 #ifdef __cplusplus
 }
