@@ -302,7 +302,7 @@ static bool change_volume(struct pel_state *state, enum pel_action action) {
 
 void pel_command_do(struct pel_state *state, enum pel_action action, int number) {
     if (!move_camera(state, action, number) && !use_window(state, action) &&
-        !change_volume(state, action))
+        !change_volume(state, action) && !pel_command_pose(state, action, number))
         pel_command_look(state, action);
     state->redraw = true;
 }

@@ -28,6 +28,17 @@ static void change_preset(struct pel_state *state, int by) {
     pel_state_change(state, "transfer function");
 }
 
+void pel_command_level(struct pel_transfer *transfer, double wider, double up) {
+    double low = transfer->opacities[0].value;
+    double high = transfer->opacities[transfer->opacity_count - 1].value;
+    double middle = (low + high) / 2;
+    for (int i = 0; i < transfer->opacity_count; i++)
+        transfer->opacities[i].value =
+            middle + up + wider * (transfer->opacities[i].value - middle);
+    for (int i = 0; i < transfer->colour_count; i++)
+        transfer->colours[i].value = middle + up + wider * (transfer->colours[i].value - middle);
+}
+
 static void change_filter(struct pel_state *state) {
     struct pel_instance *instance = &state->scene->instances[state->selected];
     int filter = next((int)instance->filter, 1, pel_names_filter());

@@ -60,6 +60,7 @@ static void draw_column(struct pel_state *state) {
         void (*draw)(struct pel_state *state);
     } sections[] = {
         {"Volumes", true, pel_panel_volumes},
+        {"Pose", false, pel_panel_pose},
         {"Look", false, pel_panel_look},
         {"Lights and shading", false, pel_panel_light},
         {"Stereo", false, pel_panel_stereo},

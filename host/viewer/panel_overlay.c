@@ -1,86 +1,108 @@
 // panel_overlay.c - read-outs over the picture: which way is which, how long is what.
-#include <math.h>
 #include <stdio.h>
 
+#include "viewer/gauge.h"
 #include "viewer/panel.h"
-#include "viewer/vector.h"
-#include "viewer/view.h"
 
 static const uint32_t white = 0xFFFFFFFF, shade = 0xA0000000;
 
-// A face of the cube: its letter, the axis it looks along, and to which side.
-static const struct {
-    const char *letter;
-    int axis;
-    double side;
-} faces[] = {{"R", 0, 1}, {"L", 0, -1}, {"A", 1, 1}, {"P", 1, -1}, {"S", 2, 1}, {"I", 2, -1}};
-
-// Where a point of a cube of half edges 1 around nothing is drawn.
-static void place(const struct pel_view *view, const double centre[2], double half_px,
-                  const double p[3], double px[2]) {
-    px[0] = centre[0] + half_px * vector_dot(p, view->right);
-    px[1] = centre[1] - half_px * vector_dot(p, view->up);
-}
-
-// The faces that are seen, and on each what lies there: right, left, anterior, posterior, superior,
-// inferior.
+// The faces of the patient that are seen, with their letters.
 static void draw_cube(const struct pel_state *state, const struct pel_view *view,
                       const struct pel_rectangle *where) {
-    double half_px = 22 * state->windows[0].scale;
-    const double centre[2] = {where->x + where->width - 2.2 * half_px,
-                              where->y + where->height - 2.2 * half_px};
-    for (size_t i = 0; i < sizeof faces / sizeof *faces; i++) {
-        int axis = faces[i].axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
-        if (faces[i].side * view->forward[axis] >= 0)
-            continue;
-        double corners[4][2], middle[2], p[3];
-        p[axis] = faces[i].side;
-        for (int corner = 0; corner < 4; corner++) {
-            p[u] = corner == 0 || corner == 3 ? -1 : 1;
-            p[v] = corner < 2 ? -1 : 1;
-            place(view, centre, half_px, p, corners[corner]);
-        }
-        p[u] = p[v] = 0;
-        place(view, centre, half_px, p, middle);
+    double edge_px = 44 * state->windows[0].scale;
+    const double centre[2] = {where->x + where->width - 1.1 * edge_px,
+                              where->y + where->height - 1.1 * edge_px};
+    struct pel_cube_face faces[3];
+    int count = pel_orientation_cube(faces, view, centre, edge_px);
+    for (int i = 0; i < count; i++) {
+        const struct pel_cube_face *face = &faces[i];
         for (int corner = 0; corner < 4; corner++)
-            pel_widget_line(corners[corner], corners[(corner + 1) % 4], 0xFFD0D0D0, 1.5);
+            pel_widget_line(face->corners[corner], face->corners[(corner + 1) % 4], 0xFFD0D0D0,
+                            1.5);
         // A face seen from its edge has no room for its letter.
-        if (fabs(view->forward[axis]) < 0.3)
+        if (face->brightness < 0.3)
             continue;
-        const double at[2] = {middle[0] - pel_widget_text_width(faces[i].letter) / 2,
-                              middle[1] - pel_widget_letter_height() / 2};
-        pel_widget_write(at, white, faces[i].letter);
+        const char letter[2] = {face->letter, 0};
+        const double at[2] = {face->centre[0] - pel_widget_text_width(letter) / 2,
+                              face->centre[1] - pel_widget_letter_height() / 2};
+        pel_widget_write(at, white, letter);
     }
-}
-
-// The longest of 1, 2, 5, 10, ... millimetres that takes no more than this.
-static double round_length(double most_mm) {
-    double decade = pow(10, floor(log10(most_mm)));
-    return most_mm >= 5 * decade ? 5 * decade : most_mm >= 2 * decade ? 2 * decade : decade;
 }
 
 // The bar is true at the distance of the camera's target.
 static void draw_scale(const struct pel_state *state, const struct pel_view *view,
                        const struct pel_rectangle *where) {
-    double scale = state->windows[0].scale, mm_per_px = pel_view_target_mm_per_px(view);
-    if (!(mm_per_px > 0) || !isfinite(mm_per_px))
+    double scale = state->windows[0].scale;
+    struct pel_scale_bar bar;
+    if (!pel_scale_bar_make(&bar, view, 140 * scale))
         return;
-    double mm = round_length(140 * scale * mm_per_px), px = mm / mm_per_px;
     double right = where->x + where->width - 110 * scale;
-    double y = where->y + where->height - 20 * scale;
-    const double from[2] = {right - px, y}, to[2] = {right, y};
-    pel_widget_line((double[]){from[0], y + 1}, (double[]){to[0], y + 1}, shade, 5 * scale);
-    pel_widget_line(from, to, white, 2 * scale);
+    double left = right - bar.length_px, y = where->y + where->height - 20 * scale;
+    pel_widget_line((double[]){left, y + 1}, (double[]){right, y + 1}, shade, 5 * scale);
+    pel_widget_line((double[]){left, y}, (double[]){right, y}, white, 2 * scale);
     for (int i = 0; i < 2; i++) {
-        double x = i ? to[0] : from[0];
+        double x = i ? right : left;
         pel_widget_line((double[]){x, y - 5 * scale}, (double[]){x, y + 5 * scale}, white,
                         2 * scale);
     }
-    char text[32];
-    snprintf(text, sizeof text, "%g mm", mm);
-    const double at[2] = {right - px / 2 - pel_widget_text_width(text) / 2,
+    const double at[2] = {(left + right - pel_widget_text_width(bar.text)) / 2,
                           y - 6 * scale - pel_widget_letter_height()};
-    pel_widget_write(at, white, text);
+    pel_widget_write(at, white, bar.text);
+}
+
+// The gizmo: arrows red, green and blue along x, y and z, rings about them.
+static void draw_handles(const struct pel_state *state, const struct pel_rectangle *where) {
+    static const uint32_t colours[] = {0xFF5050FF, 0xFF50E050, 0xFFFF8050, 0xFFE0E0E0};
+    struct pel_gizmo gizmo;
+    if (!pel_state_gizmo(state, &gizmo))
+        return;
+    const double at[2] = {state->pointer_px[0] - where->x, state->pointer_px[1] - where->y};
+    enum pel_handle hot = state->drag == PEL_DRAG_HANDLE
+                              ? state->handle_drag.handle
+                              : pel_gizmo_hit(&gizmo, at, 8 * state->windows[0].scale);
+    for (int handle = PEL_HANDLE_NONE + 1; handle < PEL_HANDLE_COUNT; handle++) {
+        double points[PEL_HANDLE_POINTS][2];
+        int count = pel_gizmo_outline(&gizmo, (enum pel_handle)handle, points);
+        uint32_t colour = handle == (int)hot               ? 0xFF40E0FF
+                          : handle >= PEL_HANDLE_MOVE_VIEW ? colours[3]
+                                                           : colours[(handle - 1) % 3];
+        for (int i = 0; i < count; i++)
+            points[i][0] += where->x, points[i][1] += where->y;
+        for (int i = 1; i < count; i++)
+            pel_widget_line(points[i - 1], points[i], colour, handle == (int)hot ? 3 : 2);
+    }
+}
+
+// Where the pointer's ray first sees something, and what every volume is there.
+static void draw_values(struct pel_state *state, const struct pel_view *view,
+                        const struct pel_rectangle *where) {
+    const double at[2] = {state->pointer_px[0] - where->x, state->pointer_px[1] - where->y};
+    if (state->drag != PEL_DRAG_NONE || at[0] < 0 || at[1] < 0 || at[0] >= where->width ||
+        at[1] >= where->height)
+        return;
+    if (!state->picked)
+        pel_pick(&state->pick, state->scene, view, at);
+    state->picked = true;
+    const struct pel_pick *pick = &state->pick;
+    if (!pick->hit)
+        return;
+    double line_px = pel_widget_letter_height() + 3, y = where->y + 10;
+    double x = where->x + 12;
+    char text[160];
+    snprintf(text, sizeof text, "%.1f %.1f %.1f mm (R A S)", pick->position[0], pick->position[1],
+             pick->position[2]);
+    for (int i = -1; i < pick->count; i++, y += line_px) {
+        const struct pel_instance *instance = &state->scene->instances[i < 0 ? 0 : i];
+        if (i >= 0 && !pick->values[i].inside)
+            continue;
+        if (i >= 0)
+            snprintf(text, sizeof text, "%s %.5g %s", instance->name, pick->values[i].value,
+                     state->scene->volumes[instance->volume]->unit);
+        const double low[2] = {x - 4, y - 1};
+        const double high[2] = {x + pel_widget_text_width(text) + 4, y + line_px - 2};
+        pel_widget_box(low, high, shade, true);
+        pel_widget_write((double[]){x, y}, white, text);
+    }
 }
 
 void pel_panel_overlay(struct pel_state *state) {
@@ -91,5 +113,7 @@ void pel_panel_overlay(struct pel_state *state) {
     pel_widget_draw_over(true);
     draw_cube(state, &view, where);
     draw_scale(state, &view, where);
+    draw_handles(state, where);
+    draw_values(state, &view, where);
     pel_widget_draw_over(false);
 }

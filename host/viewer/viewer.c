@@ -285,6 +285,7 @@ enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *se
     pel_history_destroy(state->history);
     pel_latency_destroy(state->latency);
     pel_script_destroy(state->script);
+    pel_transfer_destroy(state->levels_before);
     pel_scene_destroy(state->scene);
     free(state);
     return code;
