@@ -369,10 +369,18 @@ enum pel_filter {
     PEL_FILTER_CATMULL_ROM,
 };
 
-// How overlapping volumes share one sample. docs/picture.md has the formulae.
+// How overlapping volumes share one sample. docs/mixing.md has formulae, pictures and sources.
 enum pel_mixing {
     PEL_MIX_SUM,  // extinctions add, colour is the extinction-weighted mean; order does not matter
     PEL_MIX_OVER, // blended front to back at each sample in the order of the list
+    PEL_MIX_ORDERED,  // each volume keeps its own step; samples are blended as they come on the ray
+    PEL_MIX_MAX,      // the volume of the greatest extinction hides the others
+    PEL_MIX_PRIORITY, // the volume of the greatest `priority` that shows anything hides the others
+    // Of constructive solid geometry, on extinctions; colours are means as in sum, of difference
+    // the first volume's.
+    PEL_MIX_UNION,        // the greatest
+    PEL_MIX_INTERSECTION, // the least, of all visible volumes
+    PEL_MIX_DIFFERENCE,   // the first visible volume's less all others'
 };
 
 // How light is gathered in a volume along a ray. docs/picture.md, "Optical models", has the
@@ -400,6 +408,8 @@ struct pel_surface {
     bool coloured;  // it has a colour of its own; otherwise the transfer function's
     double rgb[3];  // straight, 0..1
 };
+// The names of the kinds of mixing in the order of the enum; the list ends with NULL.
+PEL_API const char *const *pel_mixing_names(void);
 
 // Where the samples of a ray are counted from.
 enum pel_sample_origin {
@@ -444,6 +454,7 @@ struct pel_instance {
     enum pel_model model;          //
     int surface_count;             // of model iso; 0: one of the middle value, opaque
     struct pel_surface surfaces[PEL_SURFACE_MAX];
+    double priority; // of PEL_MIX_PRIORITY: the greater one wins, of equals the first in the list
 };
 
 #define PEL_LIGHT_MAX 8

@@ -7,6 +7,7 @@
 #include "classify.cl"
 #include "mix.cl"
 #include "model.cl"
+#include "order.cl"
 #include "pixel.cl"
 #include "shade.cl"
 #include "span.cl"
@@ -52,24 +53,36 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
 
     while (any_lane(alive)) {
-#if CAPACITY > 1
+#if MIXING == MIXING_ORDERED
+        const real place = order_nearest(crossing);
+        alive &= MASK(place < NOWHERE);
+        active.count = crossing->count;
+#elif CAPACITY > 1
         if (any_lane(alive & MASK(i >= active.until)))
             begin_span(&active, crossing, i, alive);
 #endif
         mask seen = (mask)(0);
         struct mixture mixture = mix_begin();
         for (int a = 0; a < COUNTED(active.count); a++) {
-            const int c = LISTED(active.list, a);
+            const int c = MIXING == MIXING_ORDERED ? a : LISTED(active.list, a);
             struct cursor *cursor = &crossing->cursors[c];
             __constant struct part *part = &world->parts[LISTED(crossing->parts, c)];
             mask present = alive;
-#if CAPACITY > 1
+#if MIXING == MIXING_ORDERED
+            present &= MASK(order_place(crossing, c) == place);
+            i = cursor->next;
+#elif CAPACITY > 1
             present &= MASK(i >= cursor->next) & MASK(i < cursor->end);
+#endif
+#if CAPACITY > 1
             if (!any_lane(present))
                 continue;
 #endif
             *samples -= present;
             const real t = TO_REAL(cursor_clamp(cursor, i));
+#if MIXING == MIXING_ORDERED
+            cursor->next -= present;
+#endif
             const real x = cursor->ox + t * cursor->dx, y = cursor->oy + t * cursor->dy,
                        z = cursor->oz + t * cursor->dz;
             const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
@@ -88,7 +101,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, light.a);
 #endif
             if (!any_lane(visible)) {
+#if MIXING == MIXING_ORDERED
+                const integer next = cursor_leap(part, cells, cursor, cursor->next);
+                cursor->next = CHOOSE(cursor->next, next, present);
+#else
                 cursor->next = cursor_leap(part, cells, cursor, i + 1);
+#endif
                 continue;
             }
             seen |= visible;
@@ -105,18 +123,22 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #if SHADING
             if (part->shading != SHADING_NONE)
                 shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
-                      SAMPLE_NUMBER(crossing, t), x, y, z, CHOOSE(zero, sample.raw, visible), &r, &g,
-                      &b);
+                      SAMPLE_NUMBER(crossing, c, t), x, y, z, CHOOSE(zero, sample.raw, visible),
+                      &r, &g, &b);
 #endif
 #if PROBE
             log_colour(crossing, r, g, b);
 #endif
-            mix_add(&mixture, layer, r, g, b, CHOOSE(zero, strength, visible));
+            mix_add(&mixture, layer, part, r, g, b, CHOOSE(zero, strength, visible));
         }
 
+#if MIXING == MIXING_ORDERED
+        if (any_lane(seen))
+            alive &= MASK(light.a <= world->termination);
+#else
         i -= alive; // one on, where the ray still runs
         if (any_lane(seen)) {
-            mix_end(&mixture, layer);
+            mix_end(world, &mixture, layer);
 #if MODELS
             gathered_join(&gathered, &light);
 #endif
@@ -125,6 +147,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             i = leap(&active, crossing, i);
         }
         alive &= MASK(i < last);
+#endif
     }
 #if MODELS & MODELS_PROJECTION
     slip_in_projections(world, table, &gathered, crossing, &light);

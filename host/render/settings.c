@@ -1,6 +1,8 @@
 // settings.c - whether a scene's settings make sense.
 #include "render/settings.h"
 
+#include <math.h>
+
 #include "base/error.h"
 #include "world/bricks.h"
 #include "world/model.h"
@@ -36,6 +38,12 @@ bool pel_settings_check(const struct pel_scene *scene) {
         return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
     if ((unsigned)settings->debug > PEL_DEBUG_TIME)
         return pel_fail(PEL_ERROR_ARGUMENT, "debug view %d", (int)settings->debug);
+    if ((unsigned)settings->mixing > PEL_MIX_DIFFERENCE)
+        return pel_fail(PEL_ERROR_ARGUMENT, "mixing of kind %d", (int)settings->mixing);
+    for (int k = 0; k < scene->instance_count; k++)
+        if (!isfinite(scene->instances[k].priority))
+            return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': priority %g, must be finite",
+                            scene->instances[k].name, scene->instances[k].priority);
     return pel_model_check(scene) && pel_bricks_check(&settings->bricks) &&
            check_supersampling(&settings->supersampling);
 }

@@ -23,7 +23,6 @@ static const char *const supersampling_keys[] = {"comment", "n",        "pattern
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
 
 // In the order of their enums.
-static const char *const mixing_names[] = {"sum", "over", NULL};
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
 static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", "bvh", NULL};
 static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
@@ -151,7 +150,7 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
     int debug = (int)render->debug;
     bool good =
         pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
-        pel_node_get_name(&node, "mixing", mixing_names, &mixing) &&
+        pel_node_get_name(&node, "mixing", pel_mixing_names(), &mixing) &&
         pel_scene_read_march(render, &node) &&
         pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
         pel_node_get_number(&node, "termination", &termination_range, &render->termination) &&
