@@ -171,7 +171,7 @@ static void write_render(struct pel_scene_writer *writer, json_t *scene) {
     const struct pel_render_settings *usual = &writer->usual->render;
     json_t *object = pel_write_object(writer, scene, "render");
     pel_write_numbers(writer, object, "size", 2, (double[]){render->width, render->height});
-    pel_write_name(writer, object, "mixing", mixing_names, render->mixing, usual->mixing);
+    pel_write_name(writer, object, "mixing", pel_mixing_names(), render->mixing, usual->mixing);
     pel_scene_write_march(writer, object);
     pel_write_number(writer, object, "phase", render->phase, usual->phase);
     pel_write_number(writer, object, "termination", render->termination, usual->termination);

@@ -117,6 +117,7 @@ static void write_volume(struct pel_scene_writer *writer, json_t *volume,
     pel_scene_write_pose(writer, volume, &instance->transform);
     pel_write_value(writer, volume, "transfer", pel_transfer_write(instance->transfer));
     pel_write_number(writer, volume, "density", instance->density, usual.density);
+    pel_write_number(writer, volume, "priority", instance->priority, usual.priority);
     pel_scene_write_model(writer, volume, instance);
     pel_scene_write_material(writer, volume, &instance->material);
     pel_write_name(writer, volume, "extent", extent_names, instance->extent, usual.extent);
