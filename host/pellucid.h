@@ -703,6 +703,7 @@ struct pel_renderer_options {
     enum pel_reader reader;
     int lanes;                     // rays per work-item: 1, 4, 8 or 16; 0 = as the device likes it
     int work_group;                // work-items per work-group; 0 = as the device likes it
+    int work_group_rows;           // packets of rays above each other in one; 0 = 1
     uint64_t max_allocation_bytes; // lowers the device's own limit (for tests); 0 = the device's
 };
 
@@ -723,6 +724,13 @@ struct pel_debug_range {
     double min, max, mean;
 };
 
+// What the device says of the kernel that rendered a frame.
+struct pel_kernel_info {
+    size_t max_work_group;               // work-items
+    size_t work_group_multiple;          // that it likes work-groups to be of
+    uint64_t private_bytes, local_bytes; // of each work-item, and of each work-group
+};
+
 // What one frame took.
 struct pel_render_statistics {
     char device[128], driver[128];
@@ -733,6 +741,7 @@ struct pel_render_statistics {
     double refined;          // share of the pixels that got all their rays: 1 unless adaptive
     uint64_t device_bytes;   // allocated on the device at the end of the frame
     uint64_t uploaded_bytes; // sent to the device for this frame
+    struct pel_kernel_info kernel;
     enum pel_skip skip;
     uint64_t skip_bytes; // of device_bytes, those for skipping
     struct pel_brick_statistics bricks;

@@ -24,6 +24,9 @@
 #include "resolve.cl"
 #endif
 
+#ifndef GROUP_ROWS
+#define GROUP_ROWS 1 // packets above each other in a work-group
+#endif
 #ifndef DEBUG
 #define DEBUG 0 // 1: a number of each ray in place of its light
 #endif
@@ -98,7 +101,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
 #if PROBE
-            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, light.a);
+            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, layer->a);
 #endif
             if (!any_lane(visible)) {
 #if MIXING == MIXING_ORDERED
@@ -164,8 +167,12 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint packets_per_tile = packets_per_row * (TILE_PX / PACKET_H);
     const uint packet = get_global_id(0) % packets_per_tile;
     const uint tile = get_global_id(0) / packets_per_tile + first_tile;
-    const int left = (int)(tile % world->tiles_x * TILE_PX + packet % packets_per_row * PACKET_W);
-    const int top = (int)(tile / world->tiles_x * TILE_PX + packet / packets_per_row * PACKET_H);
+    // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that high.
+    const uint band = packet / (packets_per_row * GROUP_ROWS),
+               place = packet % (packets_per_row * GROUP_ROWS);
+    const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;
+    const int left = (int)(tile % world->tiles_x * TILE_PX + column * PACKET_W);
+    const int top = (int)(tile / world->tiles_x * TILE_PX + row * PACKET_H);
     __global uint *count = &sample_counts[tile * packets_per_tile + packet];
     const uint earlier = earlier_samples(world, *count RAY_ARGUMENTS);
     *count = earlier;
