@@ -261,11 +261,6 @@ void pel_hand_tick(struct pel_state *state, double seconds) {
 void pel_hand_react(struct pel_state *state, const struct pel_event *event) {
     switch (event->kind) {
     case PEL_EVENT_POINTER:
-        state->pointer_px[0] = event->x;
-        state->pointer_px[1] = event->y;
-        state->pointer_window = event->window;
-        state->redraw = true;
-        state->picked = false;
         if (state->drag != PEL_DRAG_NONE)
             drag(state, event);
         break;

@@ -85,7 +85,7 @@ static void draw_help(struct pel_state *state) {
     int count;
     const struct pel_key_row *rows = pel_keys_rows(&count);
     double scale = state->windows[0].scale;
-    pel_widget_dialog_begin("Keys and mouse (F1 closes this)", 640 * scale, 900 * scale,
+    pel_widget_dialog_begin("Keys and mouse (F1 closes this)", 760 * scale, 900 * scale,
                             &state->help);
     for (int i = 0; i < count; i++) {
         if (rows[i].group) {

@@ -98,6 +98,13 @@ static bool is_for_panels(struct pel_state *state, const struct pel_event *event
 }
 
 static void react(struct pel_state *state, const struct pel_event *event) {
+    if (event->kind == PEL_EVENT_POINTER) {
+        state->pointer_px[0] = event->x;
+        state->pointer_px[1] = event->y;
+        state->pointer_window = event->window;
+        state->picked = false;
+        state->redraw = true;
+    }
     if (is_for_panels(state, event))
         return;
     switch (event->kind) {
@@ -127,6 +134,10 @@ static void react_to_all(struct pel_state *state) {
         react(state, &event);
         free(event.path);
         more = event.kind != PEL_EVENT_BUTTON && event.kind != PEL_EVENT_KEY;
+        // And they learn where the pointer is before it is pressed.
+        if (event.kind == PEL_EVENT_POINTER && state->queue.count > 0 &&
+            state->queue.events[state->queue.first].kind == PEL_EVENT_BUTTON)
+            more = false;
     }
 }
 
