@@ -283,6 +283,12 @@ struct pel_bounds {
 PEL_API bool pel_camera_fit(struct pel_camera *camera, const char *view,
                             const struct pel_bounds *bounds, double aspect);
 
+// The camera whose picture is a part of another's: `place` is its left and top edge, width and
+// height, in shares of the whole, whose width / height is `aspect`. Rays through the same place of
+// both are the same, up to rounding.
+PEL_API struct pel_camera pel_camera_part(const struct pel_camera *whole, double aspect,
+                                          const double place[4]);
+
 // ---- Stereo ------------------------------------------------------------------------------------
 
 // How the pictures of two eyes become one. docs/stereo.md has the formulae and their sources.
@@ -546,6 +552,21 @@ struct pel_render_settings {
     enum pel_debug debug; //
 };
 
+#define PEL_WALL_MAX 32
+
+// One window or monitor of a display wall.
+struct pel_wall_region {
+    double place[4]; // left and top edge, width and height, in shares of the whole picture
+    int monitor;     // which one it fills, counted from 0; -1: none, it is a window
+    char device[64]; // what renders it, as pel_renderer_options has it; "" = what renders the rest
+};
+
+// One picture over several windows or monitors; what lies between the regions is hidden by bezels.
+struct pel_wall {
+    int region_count; // 0: no wall
+    struct pel_wall_region regions[PEL_WALL_MAX];
+};
+
 struct pel_output_settings {
     char path[1024];    // "" when the scene names none
     int depth;          // of PNG: 8 or 16
@@ -585,6 +606,7 @@ struct pel_scene {
     struct pel_light lights[PEL_LIGHT_MAX];
     struct pel_render_settings render;
     struct pel_stereo stereo;
+    struct pel_wall wall; // of the viewer; pictures are rendered whole
     struct pel_output_settings output;
     struct pel_timeline timeline;
     char *text; // owned; the scene as JSON after all overrides, as it goes into the picture

@@ -52,6 +52,7 @@ struct pel_scene_plan {
 // First pass, in parts; the camera comes after the volumes. All fail like the functions of
 // scene_node.h.
 bool pel_scene_read_settings(struct pel_scene *scene, const struct pel_scene_node *node);
+bool pel_scene_read_wall(struct pel_scene *scene, const struct pel_scene_node *node);
 bool pel_scene_read_stereo(struct pel_scene *scene, const struct pel_scene_node *node);
 bool pel_scene_read_volumes(struct pel_scene *scene, struct pel_scene_plan *plan);
 bool pel_scene_read_camera(struct pel_camera_plan *plan, const struct pel_scene_node *root,
