@@ -45,6 +45,8 @@ struct crossing {
     struct cursor cursors[CAPACITY];
     int parts[CAPACITY];
     int count;
+    integer possible; // samples of each ray, were all of them taken
+    integer behind;   // of these, those behind the end of a ray that ended early
 #if SHADING
     struct ray ray;
 #endif
@@ -107,6 +109,7 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     crossing->mirror = sample_at(bounds.far, t_near, RAY_PHASE(world, ray), samples_per_mm) + 1;
 #endif
     crossing->count = 0;
+    crossing->possible = crossing->behind = (integer)(0);
     for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
         __constant struct part *part = &world->parts[p];
         const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
@@ -115,6 +118,8 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
 #if MODELS & MODELS_BACKWARD
         cursor_mirror(&cursor, crossing->mirror);
 #endif
+        crossing->possible += CHOOSE((integer)(0), cursor.end - cursor.first,
+                                     MASK(cursor.first < cursor.end));
         if (any_lane(MASK(cursor.first < cursor.end)))
             cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
         if (any_lane(MASK(cursor.next < cursor.end))) {

@@ -34,10 +34,13 @@ bool pel_scene_read_step(const struct pel_scene_node *object, double *step, doub
 
 bool pel_scene_read_march(struct pel_render_settings *render, const struct pel_scene_node *node) {
     int order = (int)render->order;
+    double quality = 0;
     bool good = read_optical_model(&render->model, node) &&
                 pel_node_get_name(node, "order", order_names, &order) &&
                 pel_node_get_number(node, "emission_scale", &pel_positive_number,
                                     &render->emission_scale) &&
+                pel_node_get_bool(node, "preintegration", &render->preintegration) &&
+                pel_scene_read_quality(node, &quality) &&
                 pel_scene_read_step(node, &render->step, &render->step_mm);
     render->order = (enum pel_order)order;
     return good;
@@ -70,7 +73,8 @@ static bool read_surface(struct pel_surface *surface, const struct pel_scene_nod
 
 bool pel_scene_read_model(struct pel_instance *instance, const struct pel_scene_node *volume) {
     struct pel_scene_node node;
-    if (!read_optical_model(&instance->model, volume))
+    if (!read_optical_model(&instance->model, volume) ||
+        !pel_node_get_bool(volume, "preintegration", &instance->preintegration))
         return false;
     if (!pel_node_member(&node, volume, "iso"))
         return true;

@@ -10,10 +10,12 @@
 #include "base/text.h"
 #include "world/scene.h"
 
-static const char *const volume_keys[] = {
-    "comment", "file",      "generate", "raw",     "time",   "channel", "name",    "visible",
-    "spacing", "transform", "transfer", "density", "extent", "filter",  "palette", "opacity_unit",
-    "shading", "step",      "step_mm",  "model",   "iso",    NULL};
+static const char *const volume_keys[] = {"comment", "file",           "generate", "raw",
+                                          "time",    "channel",        "name",     "visible",
+                                          "spacing", "transform",      "transfer", "density",
+                                          "extent",  "filter",         "palette",  "opacity_unit",
+                                          "shading", "step",           "step_mm",  "model",
+                                          "iso",     "preintegration", NULL};
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};
