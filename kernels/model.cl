@@ -67,7 +67,7 @@ INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table
                           CHOOSE((real)(0.0f), sample->raw, spot.present), &r, &g, &b);
         }
 #endif
-        mix_add(mixture, &gathered->media, r, g, b, strength);
+        mix_add(mixture, &gathered->media, spot.part, r, g, b, strength);
         return seen;
     }
 #endif

@@ -97,7 +97,10 @@ static const struct argp_option argp_options[] = {
      "as model=phong,shininess=40",
      0},
     {0, 0, NULL, 0, "Rendering:", 4},
-    {"mix", KEY_MIX, "sum|over", 0, "How overlapping volumes share a sample", 0},
+    {"mix", KEY_MIX, "KIND", 0,
+     "How overlapping volumes share a sample: sum, over, ordered, max, priority, union, "
+     "intersection or difference",
+     0},
     {"quality", KEY_QUALITY, "0..1|draft|normal|high|best", 0,
      "Choose steps, termination and supersampling together", 0},
     {"preintegration", KEY_PREINTEGRATION, NULL, 0,

@@ -24,7 +24,7 @@ INLINE void shade_between(__constant struct world *world, MEMORY_PARAMETERS,
                           real *r, real *g, real *b) {
     const struct cursor *cursor = spot->cursor;
     shade(world, spot->part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
-          SAMPLE_NUMBER(crossing, t), cursor->ox + t * cursor->dx, cursor->oy + t * cursor->dy,
+          SAMPLE_NUMBER(crossing, spot->c, t), cursor->ox + t * cursor->dx, cursor->oy + t * cursor->dy,
           cursor->oz + t * cursor->dz, raw, r, g, b);
 }
 #endif

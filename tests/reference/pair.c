@@ -29,13 +29,12 @@ bool reference_is_preintegrated(const struct pel_scene *scene,
 static void integrate(double pair[4], const struct reference_body *body, int f, int b,
                       double step_mm) {
     const struct reference_table *table = &body->table;
-    const double apart = body->pair_range[1] - body->pair_range[0];
+    const double first = body->pair_range[0], apart = (body->pair_range[1] - first) / (VALUES - 1);
     int count = 40 * (abs(b - f) > 0 ? abs(b - f) : 1);
     double depth = 0, rgb[3] = {0};
     for (int n = 0; n < count; n++) {
         double number = f + (b - f) * (n + 0.5) / count;
-        struct reference_sample sample = {.value = table->low + number / (VALUES - 1) *
-                                                                    (table->high - table->low)};
+        struct reference_sample sample = {.value = first + number * apart};
         struct reference_medium medium = reference_classify(body->instance, table, &sample);
         double part = medium.extinction * step_mm / count;
         for (int c = 0; c < 3; c++)
