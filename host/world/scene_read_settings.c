@@ -16,7 +16,7 @@ static const char *const render_keys[] = {
     "comment", "size",           "mixing", "step",          "step_mm", "phase", "termination",
     "origin",  "skip",           "bricks", "supersampling", "jitter",  "debug", "model",
     "order",   "emission_scale", NULL};
-static const char *const brick_keys[] = {"comment", "size", "cluster", NULL};
+static const char *const brick_keys[] = {"comment", "size", "cluster", "pool", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
@@ -25,6 +25,7 @@ static const char *const output_keys[] = {"comment", "file", "depth", "alpha", N
 static const char *const mixing_names[] = {"sum", "over", NULL};
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
 static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", "bvh", NULL};
+static const char *const pool_names[] = {"auto", "off", "on", NULL};
 static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
                                           "work-group", "work-item", "time",  NULL};
 static const char *const pattern_names[] = {"regular",        "jittered",   "n-rooks",
@@ -109,10 +110,13 @@ static bool read_bricks(struct pel_brick_settings *bricks, const struct pel_scen
     if (!pel_node_member(&node, render, "bricks"))
         return true;
     bool cluster = !bricks->apart;
+    int pool = (int)bricks->pool;
     if (!pel_node_check_object(&node, brick_keys) ||
         !pel_node_get_integer(&node, "size", 8, 128, &bricks->size) ||
-        !pel_node_get_bool(&node, "cluster", &cluster))
+        !pel_node_get_bool(&node, "cluster", &cluster) ||
+        !pel_node_get_name(&node, "pool", pool_names, &pool))
         return false;
+    bricks->pool = (enum pel_pool_use)pool;
     bricks->apart = !cluster;
     if (pel_bricks_check(bricks))
         return true;
