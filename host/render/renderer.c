@@ -149,7 +149,8 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
     enum { FIRST_BATCH = 64 };
     double start = now_ms(), mark = start;
     double batch_ms = options && options->batch_ms > 0 ? options->batch_ms : batch_default_ms;
-    double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms : FIRST_BATCH;
+    // The frame before may have had cheaper tiles, so the first batch only looks how these are.
+    double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms / 4 : FIRST_BATCH;
     for (size_t tile = 0; tile < extent->tiles;) {
         size_t left = extent->tiles - tile;
         size_t count = batch < 1 ? 1 : batch < (double)left ? (size_t)batch : left;
