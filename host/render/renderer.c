@@ -279,13 +279,14 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
                      packets * SAMPLE_COUNTS * sizeof(u32), device, "sample counts"))
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
+    struct pel_layout_limits limits =
+        pel_residency_limits(device, renderer->options.max_allocation_bytes);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, kernel, statistics->skip,
-                              &scene->render.bricks) ||
+                              &renderer->residency, scene, &limits, kernel, statistics->skip) ||
         !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);
-    if (statistics->skip != PEL_SKIP_NONE) {
+    if (statistics->skip != PEL_SKIP_NONE || world->pool) {
         statistics->skip_bytes = pel_occupancy_bytes(&renderer->occupancy) +
                                  pel_buffer_bytes(renderer->residency.ranges);
         statistics->bricks = renderer->occupancy.hierarchy.statistics;
