@@ -642,6 +642,20 @@ PEL_API void pel_scene_destroy(struct pel_scene *scene);
 // cannot be; the scene then stays as it was.
 PEL_API bool pel_scene_set_frame(struct pel_scene *scene, double frame);
 
+// A viewpoint and when the camera is there.
+struct pel_keyframe {
+    double time_s; // from the first frame
+    struct pel_camera camera;
+};
+
+// Makes recorded viewpoints, in the order of their times, the way of the scene's camera, in place
+// of what moved it before; none takes its motion away. Other tracks stay. What was changed in the
+// scene since it was loaded is now what its animation acts upon, and no longer lost in
+// pel_scene_set_frame. Fails (ARGUMENT) when times do not ascend or a volume came from no file; the
+// scene then stays as it was.
+PEL_API bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
+                                     int count, double fps);
+
 // An empty scene with every default, to be filled by a program. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_create(void);
 
