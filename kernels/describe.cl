@@ -74,6 +74,11 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, step_mm);
     *out++ = OFFSET(struct part, density);
     *out++ = OFFSET(struct part, number);
+    *out++ = OFFSET(struct part, gradient);
+    *out++ = OFFSET(struct part, styled);
+    *out++ = OFFSET(struct part, ramp_count);
+    *out++ = OFFSET(struct part, silhouette);
+    *out++ = OFFSET(struct part, ramps);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);

@@ -55,7 +55,7 @@ INLINE struct sample sample_part(MEMORY_PARAMETERS, __constant struct part *part
                                  real z) {
 #if FILTERS & FILTERS_CUBIC
     if (IS_FILTER(part, FILTERS_CUBIC_B_SPLINE) || IS_FILTER(part, FILTERS_CATMULL_ROM))
-        return sample_cubic(MEMORY_ARGUMENTS, part, x, y, z);
+        return sample_cubic(MEMORY_ARGUMENTS, part, x, y, z, -1);
 #endif
     return fetch_part(MEMORY_ARGUMENTS, part, IS_FILTER(part, FILTERS_NEAREST), x, y, z);
 }

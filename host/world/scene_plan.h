@@ -59,6 +59,7 @@ bool pel_scene_read_source(struct pel_volume_plan *plan, const struct pel_scene_
 bool pel_scene_read_transfer(struct pel_transfer **transfer, const struct pel_scene_node *node);
 
 bool pel_scene_read_lights(struct pel_scene *scene, const struct pel_scene_node *node);
+bool pel_scene_read_style(struct pel_instance *instance, const struct pel_scene_node *volume);
 bool pel_scene_read_material(struct pel_material *material, const struct pel_scene_node *volume);
 
 // A colour by name, as #rrggbb[aa] or as 3 or 4 numbers; without an alpha, rgba[3] stays.

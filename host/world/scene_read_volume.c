@@ -10,10 +10,31 @@
 #include "base/text.h"
 #include "world/scene.h"
 
-static const char *const volume_keys[] = {
-    "comment", "file",      "generate", "raw",     "time",   "channel", "name",    "visible",
-    "spacing", "transform", "transfer", "density", "extent", "filter",  "palette", "opacity_unit",
-    "shading", "step",      "step_mm",  "model",   "iso",    NULL};
+static const char *const volume_keys[] = {"comment",
+                                          "file",
+                                          "generate",
+                                          "raw",
+                                          "time",
+                                          "channel",
+                                          "name",
+                                          "visible",
+                                          "spacing",
+                                          "transform",
+                                          "transfer",
+                                          "density",
+                                          "extent",
+                                          "filter",
+                                          "palette",
+                                          "opacity_unit",
+                                          "shading",
+                                          "step",
+                                          "step_mm",
+                                          "model",
+                                          "iso",
+                                          "gradient",
+                                          "gradient_opacity",
+                                          "silhouette",
+                                          NULL};
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};
@@ -83,6 +104,7 @@ static bool read_volume(struct pel_instance *instance, struct pel_volume_plan *p
         !pel_scene_read_step(node, &instance->step, &instance->step_mm) ||
         !pel_scene_read_model(instance, node) ||
         !pel_scene_read_material(&instance->material, node) ||
+        !pel_scene_read_style(instance, node) ||
         !pel_node_get_name(node, "extent", extent_names, &extent) ||
         !pel_node_get_name(node, "filter", filter_names, &filter))
         return false;

@@ -15,6 +15,7 @@
 #include "world/model.h"
 #include "world/step.h"
 #include "world/strength.h"
+#include "world/style.h"
 
 static float4 to_float4(const double v[3], double w) {
     return (float4){(float)v[0], (float)v[1], (float)v[2], (float)w};
@@ -280,10 +281,12 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;
         if (!pel_lighting_fill_part(&pattern, instance, scene->volumes[instance->volume]) ||
+            !pel_style_fill_part(&pattern, instance, tables[k].high - tables[k].low) ||
             !pel_model_fill_part(&pattern, scene, instance, &tables[k],
                                  count_slabs(layout, instance)))
             return pel_fail_in("volume '%s'", instance->name);
-        world->shaded |= pattern.shading != SHADING_NONE;
+        world->shaded |= pattern.shading != SHADING_NONE || pattern.styled;
+        world->styled |= pattern.styled || pattern.gradient != GRADIENT_CENTRAL;
         if (!fill_parts(world, scene, layout, instance, &pattern, centre))
             return false;
     }

@@ -69,10 +69,14 @@ struct part {
     float step_mm;              // the distance of its samples where it has a grid of its own
     float density;              //
     i32 number;                 // of the part
-    i32 pad[3];
+    i32 gradient;               // one of GRADIENT_*
+    i32 styled;                 // 1: opacity follows the gradient, as the next two say
+    i32 ramp_count;             //
+    float4 silhouette;          // base, strength and exponent; and the factor before all ramps
+    float4 ramps[GRADIENT_RAMPS]; // start, 1 / width, in ranges of the table per mm; rise of the factor
 };
 
-SHARED_ASSERT(sizeof(struct part) == 336, part_size);
+SHARED_ASSERT(sizeof(struct part) == 400, part_size);
 
 struct world {
     struct camera camera;
@@ -97,6 +101,6 @@ struct world {
     struct part parts[WORLD_PART_MAX];
 };
 
-SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 336 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 400 * WORLD_PART_MAX, world_size);
 
 #endif

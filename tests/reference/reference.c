@@ -6,7 +6,7 @@
 #include "reference/mix.h"
 #include "reference/model.h"
 #include "reference/path.h"
-#include "reference/shade.h"
+#include "reference/style.h"
 #include "reference/supersample.h"
 
 // The media present at t, in the order of the list; returns how many. `*taken` counts absent
@@ -25,12 +25,8 @@ static int media_at(struct reference_medium media[], const struct reference *ref
         if (!reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel))
             continue;
         media[count] = reference_classify(body->instance, &body->table, &sample);
-        if (body->instance->material.shading != PEL_SHADING_NONE && media[count].extinction > 0) {
-            double normal[3];
-            reference_normal(normal, body, p_voxel, sample.value, NULL);
-            struct reference_shade shade = reference_shade(reference, body, &path->ray, t, normal);
-            reference_shade_apply(&media[count], &shade);
-        }
+        if (media[count].extinction > 0)
+            reference_style(&media[count], reference, body, &path->ray, t, p_voxel, sample.value);
         count++;
     }
     return count;
