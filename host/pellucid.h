@@ -564,6 +564,16 @@ struct pel_output_settings {
     bool premultiplied; // PNG alpha as computed instead of straight
 };
 
+// How long a scene's animation is, and which of its frames the scene shows.
+struct pel_timeline {
+    int frame_count; // 0: there is no animation
+    double fps;      // frames per second
+    double frame;    // 0..frame_count
+};
+
+// What a scene was made of, for pel_scene_set_frame.
+struct pel_scene_source;
+
 // Where a volume's voxels came from, so that a scene file can say it. All-zero: from the program.
 struct pel_volume_source {
     char *file; // owned by the scene; as pel_volume_load takes it
@@ -588,7 +598,9 @@ struct pel_scene {
     struct pel_render_settings render;
     struct pel_stereo stereo;
     struct pel_output_settings output;
+    struct pel_timeline timeline;
     char *text; // owned; the scene as JSON after all overrides, as it goes into the picture
+    struct pel_scene_source *source; // owned, perhaps shared; NULL unless it was loaded
 };
 
 // Reads a scene file, or one or more volume files in place of a scene (then: a percentile window,
@@ -601,6 +613,13 @@ PEL_API struct pel_scene *pel_scene_load(const char *path, const char *const *ov
 PEL_API struct pel_scene *pel_scene_from_files(const char *const *paths, int path_count,
                                                const char *const *overrides, int override_count);
 PEL_API void pel_scene_destroy(struct pel_scene *scene);
+
+// Makes a scene with an animation show another frame, whole or between two: it is as if it had been
+// loaded with the values of that frame, but volumes that stay are not loaded again, so that nothing
+// of them is sent to a device anew. What the caller changed in the scene since is lost. Fails
+// (ARGUMENT) when there is no animation or no such frame, and like pel_scene_load when a value
+// cannot be; the scene then stays as it was.
+PEL_API bool pel_scene_set_frame(struct pel_scene *scene, double frame);
 
 // An empty scene with every default, to be filled by a program. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_create(void);
@@ -855,6 +874,26 @@ PEL_API bool pel_image_save(const struct pel_image *image, const char *path,
 // Tells before a long computation whether a picture could be saved there: ARGUMENT when the
 // extension is none of those above, FILE when the folder does not exist or cannot be written.
 PEL_API bool pel_image_check_path(const char *path);
+
+// ---- Videos ------------------------------------------------------------------------------------
+
+// A video being written, by the program ffmpeg: .mp4 (H.264), .mkv (likewise), .webm (VP9) or .gif.
+struct pel_video;
+
+// True when a path's extension is one of those.
+PEL_API bool pel_video_is_path(const char *path);
+
+// Starts ffmpeg, which writes to a temporary that takes the place of `path` in pel_video_finish.
+// NULL on failure (ARGUMENT; UNSUPPORTED when ffmpeg is not installed; FILE).
+PEL_API struct pel_video *pel_video_create(const char *path, int width, int height, double fps);
+
+// Appends a picture of that size as it is over black. Fails (FILE) with ffmpeg's last words.
+PEL_API bool pel_video_add(struct pel_video *video, const struct pel_image *image);
+
+// Ends the video and destroys it, in any case: FILE with ffmpeg's last words. Without this,
+// pel_video_destroy leaves no file behind.
+PEL_API bool pel_video_finish(struct pel_video *video);
+PEL_API void pel_video_destroy(struct pel_video *video);
 
 #ifdef __cplusplus
 }

@@ -14,6 +14,9 @@
 #if DEBUG
 #include "debug.cl"
 #endif
+#if MODELS & MODELS_EMISSION
+#include "exact.cl"
+#endif
 #if PROBE
 #include "probe_log.cl"
 #endif
@@ -106,14 +109,10 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                       SAMPLE_NUMBER(crossing, t), x, y, z, CHOOSE(zero, sample.raw, visible),
                       &strength, &r, &g, &b);
 #endif
-<<<<<<< HEAD
 #if PROBE
             log_colour(crossing, r, g, b);
 #endif
-            mix_add(&mixture, &light, r, g, b, CHOOSE(zero, strength, visible));
-=======
             mix_add(&mixture, layer, r, g, b, CHOOSE(zero, strength, visible));
->>>>>>> main
         }
 
         i -= alive; // one on, where the ray still runs
@@ -158,8 +157,12 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     find_crossing(world, cells, &ray, &crossing);
     integer samples = (integer)(0);
     struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)};
+#if MODELS & MODELS_EMISSION
+    light = follow_exactly(world, table, MEMORY_ARGUMENTS, &ray, &samples);
+#else
     if (crossing.count > 0)
         light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
+#endif
 
     const float4 behind = world->background;
     const real clear = 1.0f - light.a;

@@ -51,14 +51,12 @@ struct crossing {
 #if SHADING || PROBE
     real t_first; // where sample 0 lies
 #endif
-<<<<<<< HEAD
 #if PROBE
     __global struct probe_sample *log;
     int logged; // samples that have been there to write
-=======
+#endif
 #if MODELS & MODELS_BACKWARD
     integer mirror; // what the numbers of a sample front to back and back to front add up to
->>>>>>> main
 #endif
 };
 

@@ -2,14 +2,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/options.h"
+#include "cli/picture.h"
 #include "cli/probe.h"
 #include "cli/progress.h"
-#include "cli/render_options.h"
+#include "cli/render_frames.h"
 #include "cli/report.h"
 
 // What one run makes, and how long its parts took.
@@ -18,8 +17,7 @@ struct run {
     struct pel_renderer *renderer;
     struct pel_image *images[2]; // the second one of two-files only
     struct pel_render_statistics statistics;
-    char pictures[2][4096];
-    int picture_count;
+    struct pictures pictures;
     double load_ms, save_ms, total_ms;
 };
 
@@ -31,108 +29,12 @@ static struct pel_scene *load(const struct render_options *options) {
                                 overrides, options->overrides.count);
 }
 
-// The first input's name in the working directory with .png in place of its extension:
-// "scans/head.nii.gz" gives "head.png", and so does a folder of slices "scans/head/". The letters
-// of a glob pattern are left out.
-static void default_picture(char *picture, size_t bytes, const char *input) {
-    char name[256];
-    size_t length = strlen(input);
-    while (length > 1 && input[length - 1] == '/')
-        length--;
-    size_t begin = length;
-    while (begin > 0 && input[begin - 1] != '/')
-        begin--;
-    snprintf(name, sizeof name, "%.*s", (int)(length - begin), input + begin);
-    char *dot = strrchr(name, '.');
-    if (dot && dot > name && strcasecmp(dot, ".gz") == 0) {
-        *dot = '\0';
-        dot = strrchr(name, '.');
-    }
-    if (dot && dot > name)
-        *dot = '\0';
-    size_t end = 0;
-    for (const char *c = name; *c; c++)
-        if (!strchr("*?[]", *c))
-            name[end++] = *c;
-    name[end] = '\0';
-    snprintf(picture, bytes, "%s.png", end ? name : "picture");
-}
-
-static bool is_same_file(const char *a, const char *b) {
-    struct stat status_a, status_b;
-    return stat(a, &status_a) == 0 && stat(b, &status_b) == 0 &&
-           status_a.st_dev == status_b.st_dev && status_a.st_ino == status_b.st_ino;
-}
-
-// "head.png" becomes "head_left.png" and "head_right.png".
-static void name_eyes(struct run *run) {
-    char *name = run->pictures[0];
-    char whole[sizeof run->pictures[0]];
-    memcpy(whole, name, sizeof whole);
-    const char *slash = strrchr(whole, '/'), *dot = strrchr(whole, '.');
-    if (!dot || (slash && dot < slash))
-        dot = whole + strlen(whole);
-    // A name too long to take the addition is cut, and then refused for want of an extension.
-    for (int i = 0; i < 2; i++)
-        snprintf(run->pictures[i], sizeof run->pictures[i], "%.*s_%s%s", (int)(dot - whole), whole,
-                 i == 0 ? "left" : "right", dot);
-    run->picture_count = 2;
-}
-
-static int check_picture(const char *picture, const struct render_options *options) {
-    for (int i = 0; i < options->input_count; i++)
-        if (is_same_file(picture, options->inputs[i]))
-            return cli_fail(PEL_ERROR_ARGUMENT,
-                            "%s: the picture would overwrite its input; name "
-                            "another file with -o",
-                            picture);
-    return pel_image_check_path(picture) ? PEL_OK : cli_fail_library();
-}
-
-// Decides where the picture goes, or the two of them, before any work is done for it.
-static int choose_pictures(struct run *run, const struct render_options *options) {
-    char *picture = run->pictures[0];
-    size_t bytes = sizeof run->pictures[0];
-    run->picture_count = 1;
-    if (options->output)
-        snprintf(picture, bytes, "%s", options->output);
-    else if (run->scene->output.path[0])
-        snprintf(picture, bytes, "%s", run->scene->output.path);
-    else
-        default_picture(picture, bytes, options->inputs[0]);
-    bool piped = strcmp(picture, "-") == 0;
-    if (options->json && piped)
-        return cli_fail(PEL_ERROR_ARGUMENT, "--json and the picture both want standard output");
-    if (run->scene->stereo.kind == PEL_STEREO_TWO_FILES) {
-        if (piped)
-            return cli_fail(PEL_ERROR_ARGUMENT, "two files cannot go to standard output");
-        name_eyes(run);
-    }
-    int status = PEL_OK;
-    for (int i = 0; i < run->picture_count && !status; i++)
-        status = check_picture(run->pictures[i], options);
-    return status;
-}
-
 static int render(struct run *run, const struct render_options *options) {
-    double begin_ms = report_clock_ms();
-    run->scene = load(options);
-    run->load_ms = report_clock_ms() - begin_ms;
-    if (!run->scene)
-        return cli_fail_library();
-    if (options->probe) {
-        run->renderer = pel_renderer_create(&options->renderer);
-        return run->renderer ? probe_print(run->renderer, run->scene, options->pixel, options->json)
-                             : cli_fail_library();
-    }
-    int status = choose_pictures(run, options);
-    if (status)
-        return status;
     struct progress progress;
     progress_begin(&progress, options->quiet);
     const struct pel_render_options how = {.progress = progress_update, .user = &progress};
     run->renderer = pel_renderer_create(&options->renderer);
-    if (run->renderer && run->picture_count == 2)
+    if (run->renderer && run->pictures.count == 2)
         pel_renderer_render_eyes(run->renderer, run->scene, &how, &run->statistics, run->images);
     else if (run->renderer)
         run->images[0] = pel_renderer_render(run->renderer, run->scene, &how, &run->statistics);
@@ -140,47 +42,11 @@ static int render(struct run *run, const struct render_options *options) {
     return run->images[0] ? PEL_OK : cli_fail_library();
 }
 
-// The camera as the scene format writes it; memory to free(), or NULL.
-static char *camera_text(const struct pel_camera *camera) {
-    json_t *object = json_object();
-    json_object_set_new(object, "eye", report_numbers(camera->eye, 3));
-    json_object_set_new(object, "target", report_numbers(camera->target, 3));
-    json_object_set_new(object, "up", report_numbers(camera->up, 3));
-    if (camera->orthographic) {
-        json_object_set_new(object, "orthographic", json_true());
-        json_object_set_new(object, "height", report_number(camera->height_mm));
-    } else {
-        json_object_set_new(object, "fov", report_number(camera->fov_deg));
-    }
-    json_object_set_new(object, "shift", report_numbers(camera->shift, 2));
-    char *text = json_dumps(object, JSON_REAL_PRECISION(12));
-    json_decref(object);
-    return text;
-}
-
-// The picture says how it was made, so that it can be made again.
 static int save(struct run *run) {
     double begin_ms = report_clock_ms();
-    char software[64];
-    snprintf(software, sizeof software, "Pellucid %s", pel_version());
-    char *camera = camera_text(&run->scene->camera);
-    const char *const texts[][2] = {
-        {"Software", software},
-        {"scene", run->scene->text ? run->scene->text : ""},
-        {"camera", camera ? camera : ""},
-        {"device", run->statistics.device},
-        {"driver", run->statistics.driver},
-    };
-    struct pel_image_options options = {
-        .depth = run->scene->output.depth,
-        .premultiplied = run->scene->output.premultiplied,
-        .texts = texts,
-        .text_count = sizeof texts / sizeof *texts,
-    };
     bool good = true;
-    for (int i = 0; i < run->picture_count && good; i++)
-        good = pel_image_save(run->images[i], run->pictures[i], &options);
-    free(camera);
+    for (int i = 0; i < run->pictures.count && good; i++)
+        good = picture_save(run->images[i], run->pictures.names[i], run->scene, &run->statistics);
     run->save_ms = report_clock_ms() - begin_ms;
     return good ? PEL_OK : cli_fail_library();
 }
@@ -219,9 +85,9 @@ static json_t *describe_bricks(const struct pel_brick_statistics *bricks) {
 static int print_json(const struct run *run) {
     const struct pel_render_statistics *statistics = &run->statistics;
     json_t *object = json_object();
-    json_object_set_new(object, "picture", report_text(run->pictures[0]));
-    if (run->picture_count == 2)
-        json_object_set_new(object, "right_picture", report_text(run->pictures[1]));
+    json_object_set_new(object, "picture", report_text(run->pictures.names[0]));
+    if (run->pictures.count == 2)
+        json_object_set_new(object, "right_picture", report_text(run->pictures.names[1]));
     json_object_set_new(object, "width", json_integer(run->images[0]->width));
     json_object_set_new(object, "height", json_integer(run->images[0]->height));
     json_object_set_new(object, "device", report_text(statistics->device));
@@ -264,6 +130,22 @@ static int print_json(const struct run *run) {
     return report_json(object);
 }
 
+// One picture, of a still or of one frame.
+static int render_still(struct run *run, const struct render_options *options, double begin_ms) {
+    int status = render(run, options);
+    if (!status)
+        status = save(run);
+    run->total_ms = report_clock_ms() - begin_ms;
+    if (!status && options->json)
+        status = print_json(run);
+    else if (!status && !options->quiet && isatty(STDERR_FILENO) &&
+             strcmp(run->pictures.names[0], "-") != 0)
+        fprintf(stderr, "pellucid: %s: %d x %d pixels in %.2f s on %s\n", run->pictures.names[0],
+                run->images[0]->width, run->images[0]->height, run->total_ms / 1e3,
+                run->statistics.device);
+    return status;
+}
+
 int command_render(int argc, char **argv) {
     double begin_ms = report_clock_ms();
     struct render_options options;
@@ -272,19 +154,23 @@ int command_render(int argc, char **argv) {
     if (status)
         goto done;
     cli_show_warnings(!options.quiet);
-    status = render(&run, &options);
-    if (options.probe)
+    run.scene = load(&options);
+    run.load_ms = report_clock_ms() - begin_ms;
+    if (!run.scene || (options.frame >= 0 && !pel_scene_set_frame(run.scene, options.frame))) {
+        status = cli_fail_library();
         goto done;
+    }
+    if (options.probe) {
+        run.renderer = pel_renderer_create(&options.renderer);
+        status = run.renderer ? probe_print(run.renderer, run.scene, options.pixel, options.json)
+                              : cli_fail_library();
+        goto done;
+    }
+    bool many = render_frames_wanted(run.scene, &options);
+    status = pictures_choose(&run.pictures, run.scene, &options, many);
     if (!status)
-        status = save(&run);
-    run.total_ms = report_clock_ms() - begin_ms;
-    if (!status && options.json)
-        status = print_json(&run);
-    else if (!status && !options.quiet && isatty(STDERR_FILENO) &&
-             strcmp(run.pictures[0], "-") != 0)
-        fprintf(stderr, "pellucid: %s: %d x %d pixels in %.2f s on %s\n", run.pictures[0],
-                run.images[0]->width, run.images[0]->height, run.total_ms / 1e3,
-                run.statistics.device);
+        status = many ? render_frames(run.scene, &run.pictures, &options)
+                      : render_still(&run, &options, begin_ms);
 done:
     pel_image_destroy(run.images[0]);
     pel_image_destroy(run.images[1]);

@@ -46,6 +46,9 @@ enum {
     KEY_SET,
     KEY_PIXEL,
     KEY_JSON,
+    KEY_FRAMES,
+    KEY_FRAME,
+    KEY_FPS,
 };
 
 static const struct argp_option argp_options[] = {
@@ -59,6 +62,12 @@ static const struct argp_option argp_options[] = {
     {"alpha", KEY_ALPHA, "straight|premultiplied", 0, "How a PNG's colours are written", 0},
     {"background", KEY_BACKGROUND, "COLOUR", 0,
      "A name such as white or none, #rrggbb, or r,g,b[,a] from 0 to 1", 0},
+    {"frames", KEY_FRAMES, "FIRST:END[:STRIDE]|N|all", 0,
+     "Render these frames of the scene's animation, END not included, to pictures "
+     "(-o frame_%04d.png) or to a video (-o turn.mp4, .webm, .mkv or .gif, through ffmpeg)",
+     0},
+    {"frame", KEY_FRAME, "N", 0, "Render this frame alone", 0},
+    {"fps", KEY_FPS, "X", 0, "Frames per second", 0},
     {0, 0, NULL, 0, "The view:", 2},
     {"camera", KEY_CAMERA, "VIEW|KEY=VALUE,...", 0,
      "anterior, posterior, left, right, superior, inferior or oblique; or keys of the scene's "
@@ -324,6 +333,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_ALPHA:
         overrides_add_text(&options->overrides, "output.alpha", argument);
         break;
+    case KEY_FPS:
+        good = add_number(options, "--fps", "animation.fps", argument);
+        break;
     case KEY_SET:
         good = add_set(options, argument);
         break;
@@ -349,6 +361,12 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_JSON:
         options->json = true;
+        break;
+    case KEY_FRAMES:
+        options->frames = argument;
+        break;
+    case KEY_FRAME:
+        good = cli_integer("--frame", argument, 0, &options->frame);
         break;
     case KEY_DEVICE:
         options->renderer.device = argument;
@@ -387,10 +405,15 @@ int render_options_parse(struct render_options *options, int argc, char **argv) 
                "  pellucid render head.nii.gz brain.nii.gz --camera left -o both.png\n"
                "  pellucid render scene.json --size 1920x1080 --step 0.25 --set camera.fov=20\n"
                "  pellucid render ct.nrrd --transfer ct-bone --background white -o - | display\n"
-               "  pellucid render ct.nrrd --stereo dubois-red-cyan -o anaglyph.png\n",
+               "  pellucid render ct.nrrd --stereo dubois-red-cyan -o anaglyph.png\n"
+               "  pellucid render turn.json --frames 0:100 -o frame_%04d.png\n"
+               "  pellucid render turn.json -o turn.mp4\n",
     };
-    *options = (struct render_options){0};
-    return argp_parse(&argp, argc, argv, 0, NULL, options);
+    *options = (struct render_options){.frame = -1};
+    error_t status = argp_parse(&argp, argc, argv, 0, NULL, options);
+    if (!status && options->frames && options->frame >= 0)
+        return cli_fail(PEL_ERROR_ARGUMENT, "--frame and --frames cannot be combined");
+    return status;
 }
 
 void render_options_finish(struct render_options *options) {

@@ -12,8 +12,10 @@ struct render_options {
     const char *output; // NULL: not said
     struct overrides overrides;
     struct pel_renderer_options renderer;
-    bool probe;   // follow the ray of one pixel instead of making a picture
-    int pixel[2]; // which
+    const char *frames; // which ones; NULL: not said
+    int frame;          // -1: not said
+    bool probe;         // follow the ray of one pixel instead of making a picture
+    int pixel[2];       // which
     bool json, quiet;
 };
 

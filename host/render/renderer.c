@@ -23,6 +23,7 @@
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
+#include "world/model.h"
 
 // A batch of tiles should take about this long unless the caller says otherwise.
 static const double batch_default_ms = 150;
@@ -371,6 +372,8 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout->reader;
     statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
+    if (pel_model_skips_nothing(scene))
+        statistics->skip = PEL_SKIP_NONE;
     statistics->prepare_ms = lap_ms(&mark);
     return true;
 }

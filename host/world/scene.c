@@ -7,6 +7,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "camera/camera.h"
+#include "world/scene_source.h"
 
 struct pel_scene *pel_scene_create(void) {
     struct pel_scene *scene = pel_allocate(1, sizeof *scene);
@@ -64,6 +65,7 @@ void pel_scene_destroy(struct pel_scene *scene) {
     for (int i = 0; i < scene->instance_count; i++)
         pel_instance_finish(&scene->instances[i]);
     free(scene->text);
+    pel_scene_source_destroy(scene->source);
     free(scene);
 }
 
@@ -74,6 +76,7 @@ struct pel_scene *pel_scene_copy(const struct pel_scene *scene) {
     // What is owned is counted as it is copied, so that the copy can be destroyed at any time.
     *copy = *scene;
     copy->volume_count = copy->instance_count = 0;
+    copy->source = pel_scene_source_share(scene->source);
     copy->text = scene->text ? pel_copy_text(scene->text) : NULL;
     bool good = copy->text || !scene->text;
     while (good && copy->volume_count < scene->volume_count) {

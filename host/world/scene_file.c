@@ -10,15 +10,16 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "world/animation.h"
 #include "world/scene.h"
-#include "world/scene_override.h"
-#include "world/scene_plan.h"
+#include "world/scene_source.h"
 
 // Scenes are written by people.
 enum { SCENE_BYTES_MAX = 16 << 20 };
 
-static const char *const scene_keys[] = {"$schema", "comment", "camera", "background", "lights",
-                                         "volumes", "render",  "stereo", "output",     NULL};
+static const char *const scene_keys[] = {"$schema",   "comment", "camera", "background",
+                                         "lights",    "volumes", "render", "stereo",
+                                         "animation", "output",  NULL};
 
 static bool read_document(struct pel_scene *scene, struct pel_scene_plan *plan) {
     const struct pel_scene_node *node = &plan->scene;
@@ -35,25 +36,45 @@ static bool write_text(struct pel_scene *scene, const json_t *root) {
     return scene->text || pel_fail(PEL_ERROR_MEMORY, "cannot allocate the scene's text");
 }
 
-// Makes a scene of parsed JSON; changes `root` by the overrides.
-static struct pel_scene *build(const struct pel_scene_document *document, json_t *root) {
-    for (int i = 0; i < document->override_count; i++)
-        if (!pel_scene_override(root, document->overrides[i]))
-            return NULL;
+// Reads the scene of `source` at a frame of its animation, by default the one that it says, and
+// takes over what stays of the scene before.
+static bool read_frame(struct pel_scene *scene, const double *frame,
+                       const struct pel_scene *before) {
+    const struct pel_scene_document *document = &scene->source->document;
+    struct pel_animation animation = {0};
     struct pel_scene_plan *plan = pel_allocate(1, sizeof *plan);
-    struct pel_scene *scene = plan ? pel_scene_create() : NULL;
-    if (scene) {
+    json_t *written = json_deep_copy(scene->source->root), *root = json_deep_copy(written);
+    if (frame)
+        json_object_set_new(json_object_get(written, "animation"), "frame", json_real(*frame));
+    const struct pel_scene_node written_node = {.document = document, .value = written};
+    bool good = plan && (root || pel_fail(PEL_ERROR_MEMORY, "cannot allocate a scene"));
+    if (good) {
         plan->scene = (struct pel_scene_node){.document = document, .value = root};
-        if (!read_document(scene, plan) || !pel_scene_load_volumes(scene, plan) ||
-            !pel_scene_place_camera(scene, &plan->camera) || !write_text(scene, root)) {
-            pel_scene_destroy(scene);
-            scene = NULL;
-        }
-    }
-    if (plan)
+        good = pel_animation_read(&animation, &written_node) &&
+               pel_animation_apply(&animation, root) && read_document(scene, plan) &&
+               pel_animation_read_transfers(&animation, plan, scene->instance_count) &&
+               pel_scene_load_volumes(scene, plan, before) &&
+               pel_animation_place_camera(&animation, scene, plan) && write_text(scene, written);
+        scene->timeline = animation.timeline;
+        pel_animation_finish(&animation);
         pel_scene_plan_finish(plan);
+    }
+    json_decref(written);
+    json_decref(root);
     free(plan);
-    return scene;
+    return good;
+}
+
+// Makes a scene of parsed JSON.
+static struct pel_scene *build(const struct pel_scene_document *document, const json_t *root) {
+    struct pel_scene *scene = pel_scene_create();
+    if (!scene)
+        return NULL;
+    scene->source = pel_scene_source_create(document, root);
+    if (scene->source && read_frame(scene, NULL, NULL))
+        return scene;
+    pel_scene_destroy(scene);
+    return NULL;
 }
 
 static struct pel_scene *load_json(const char *path, const char *const *overrides,
@@ -129,4 +150,25 @@ struct pel_scene *pel_scene_from_files(const char *const *paths, int path_count,
         scene = build(&document, root);
     json_decref(root);
     return scene;
+}
+
+bool pel_scene_set_frame(struct pel_scene *scene, double frame) {
+    int count = scene->timeline.frame_count;
+    if (!scene->source || count == 0)
+        return pel_fail(PEL_ERROR_ARGUMENT, "the scene has no animation");
+    if (!(frame >= 0 && frame <= count))
+        return pel_fail(PEL_ERROR_ARGUMENT, "frame %g, outside 0..%d", frame, count);
+    struct pel_scene *next = pel_scene_create();
+    if (!next)
+        return false;
+    next->source = pel_scene_source_share(scene->source);
+    bool good = read_frame(next, &frame, scene) || pel_fail_in("frame %g", frame);
+    if (good) {
+        // The caller's scene becomes the next one, and what it was goes.
+        struct pel_scene old = *scene;
+        *scene = *next;
+        *next = old;
+    }
+    pel_scene_destroy(next);
+    return good;
 }

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
+#include "transfer/blend.h"
 #include "world/scene.h"
 
 static bool same_text(const char *a, const char *b) {
@@ -39,45 +40,69 @@ static bool same_load_options(const struct pel_load_options *a, const struct pel
            a->raw.big_endian == b->raw.big_endian;
 }
 
-// True when both plans ask for the same voxels in the same place.
-static bool same_volume(const struct pel_volume_plan *a, const struct pel_volume_plan *b) {
-    return same_file(a->file, b->file) && same_text(a->kind, b->kind) &&
-           same_load_options(&a->load, &b->load) && a->generate.size == b->generate.size &&
-           a->generate.spacing_mm == b->generate.spacing_mm &&
-           a->generate.type == b->generate.type && a->generate.second == b->generate.second &&
-           same_triple(a->spacing, b->spacing);
+// The scene's volume of the same voxels in the same place, or -1.
+static int find_volume(const struct pel_scene *scene, const struct pel_volume_source *wanted) {
+    for (int i = 0; scene && i < scene->volume_count; i++) {
+        const struct pel_volume_source *source = &scene->sources[i];
+        const struct pel_generate_options *a = &source->generate, *b = &wanted->generate;
+        if ((source->file || source->kind) && same_file(source->file, wanted->file) &&
+            same_text(source->kind, wanted->kind) &&
+            same_load_options(&source->load, &wanted->load) && a->size == b->size &&
+            a->spacing_mm == b->spacing_mm && a->type == b->type && a->second == b->second &&
+            same_triple(source->spacing, wanted->spacing))
+            return i;
+    }
+    return -1;
 }
 
-// Loads the volume of one instance, or finds it among those already there.
-static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, int instance) {
+// Loads the volume of one instance, or finds it among those already here or in the scene before.
+static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, int instance,
+                        const struct pel_scene *before) {
     struct pel_volume_plan *wanted = &plan->volume[instance];
-    for (int i = 0; i < instance; i++) {
-        if (same_volume(wanted, &plan->volume[i])) {
-            scene->instances[instance].volume = scene->instances[i].volume;
-            return true;
-        }
-    }
     struct pel_volume_source source = {
         wanted->file,
         wanted->load,
         wanted->kind,
         wanted->generate,
         {wanted->spacing[0], wanted->spacing[1], wanted->spacing[2]}};
-    struct pel_volume *volume = pel_volume_source_open(&source);
+    int *index = &scene->instances[instance].volume;
+    *index = find_volume(scene, &source);
+    if (*index >= 0)
+        return true;
+    int kept = find_volume(before, &source);
+    struct pel_volume *volume =
+        kept < 0 ? pel_volume_source_open(&source) : pel_volume_share(before->volumes[kept]);
     if (!volume)
         return pel_node_fail_in(&wanted->node);
-    int index = scene->volume_count++;
-    scene->volumes[index] = volume;
-    if (!pel_volume_source_copy(&scene->sources[index], &source))
+    *index = scene->volume_count++;
+    scene->volumes[*index] = volume;
+    if (!pel_volume_source_copy(&scene->sources[*index], &source))
         return false;
-    pel_volume_measure(volume, &scene->statistics[index]);
-    scene->instances[instance].volume = index;
+    if (kept < 0)
+        pel_volume_measure(volume, &scene->statistics[*index]);
+    else
+        scene->statistics[*index] = before->statistics[kept];
+    return true;
+}
+
+// Moves the instance's transfer function on its way to another one.
+static bool blend_transfer(struct pel_instance *instance, struct pel_volume_plan *plan,
+                           const struct pel_statistics *statistics) {
+    if (!plan->towards)
+        return true;
+    pel_transfer_resolve(plan->towards, statistics);
+    struct pel_transfer *mixed =
+        pel_transfer_blend(instance->transfer, plan->towards, plan->towards_share);
+    if (!mixed)
+        return false;
+    pel_transfer_destroy(instance->transfer);
+    instance->transfer = mixed;
     return true;
 }
 
 static bool settle_transfer(struct pel_scene *scene, struct pel_scene_plan *plan, int index) {
     struct pel_instance *instance = &scene->instances[index];
-    const struct pel_volume_plan *wanted = &plan->volume[index];
+    struct pel_volume_plan *wanted = &plan->volume[index];
     const struct pel_volume *volume = scene->volumes[instance->volume];
     const struct pel_statistics *statistics = &scene->statistics[instance->volume];
     if (!instance->transfer) {
@@ -86,6 +111,8 @@ static bool settle_transfer(struct pel_scene *scene, struct pel_scene_plan *plan
             return pel_node_fail_in(&wanted->node);
     }
     pel_transfer_resolve(instance->transfer, statistics);
+    if (!blend_transfer(instance, wanted, statistics))
+        return pel_node_fail_in(&wanted->node);
     if (wanted->opacity_unit_mm > 0)
         instance->transfer->opacity_unit_mm = wanted->opacity_unit_mm;
     if (volume->labels && !wanted->filter_given)
@@ -149,14 +176,16 @@ static void warn_unseen(const struct pel_scene *scene) {
         pel_warn("all volumes are hidden, so the picture shows the background alone");
 }
 
-bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan) {
+bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan,
+                            const struct pel_scene *before) {
     for (int i = 0; i < scene->instance_count; i++)
-        if (!load_volume(scene, plan, i))
+        if (!load_volume(scene, plan, i, before))
             return false;
     for (int i = 0; i < scene->instance_count; i++)
         if (!settle_transfer(scene, plan, i) || !settle_pose(scene, plan, i) ||
             !check_place(scene, plan, i))
             return false;
-    warn_unseen(scene);
+    if (!before)
+        warn_unseen(scene);
     return true;
 }

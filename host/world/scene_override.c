@@ -1,11 +1,14 @@
 // scene_override.c - changes a scene's JSON before it is checked.
 #include "world/scene_override.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
+#include "pellucid.h"
 
 // Scenes are shallow; a path with more steps than this is nonsense.
 enum { DEPTH_MAX = 32 };
@@ -146,6 +149,51 @@ bool pel_scene_override_covers(const char *override, const char *path) {
 
 bool pel_scene_override_touches(const char *override, const char *path) {
     return walk_together(&override, &path) && (*override == '=' || !*path);
+}
+
+bool pel_scene_put(json_t *scene, const char *path, const json_t *value) {
+    return assign(scene, path, (json_t *)value, 0);
+}
+
+// The index of the one volume whose `name` is the first step of a path; -1 with a sentence.
+static int find_volume(const json_t *volumes, const char *path) {
+    int found = -1, count = 0;
+    const char *names[PEL_VOLUME_MAX + 1] = {NULL};
+    for (size_t i = 0; i < json_array_size(volumes) && i < PEL_VOLUME_MAX; i++) {
+        const char *name = json_string_value(json_object_get(json_array_get(volumes, i), "name"));
+        names[i] = name ? name : "";
+        if (!name || !step_is(path, name))
+            continue;
+        found = (int)i;
+        count++;
+    }
+    if (count == 1)
+        return found;
+    char word[64];
+    snprintf(word, sizeof word, "%.*s", (int)step_length(path), path);
+    const char *nearest = pel_text_nearest(word, names);
+    if (count > 1)
+        pel_fail(PEL_ERROR_ARGUMENT, "%d volumes are named '%s'", count, word);
+    else if (nearest && *nearest)
+        pel_fail(PEL_ERROR_ARGUMENT, "no volume is named '%s'; did you mean '%s'", word, nearest);
+    else
+        pel_fail(PEL_ERROR_ARGUMENT, "no volume is named '%s'", word);
+    return -1;
+}
+
+bool pel_scene_key_resolve(char *resolved, size_t bytes, const json_t *scene, const char *path) {
+    const char *stem = "volumes.", *rest = path + strlen(stem);
+    int length;
+    if (strncmp(path, stem, strlen(stem)) != 0 || is_index(rest) || step_is(rest, "*")) {
+        length = snprintf(resolved, bytes, "%s", path);
+    } else {
+        int index = find_volume(json_object_get(scene, "volumes"), rest);
+        if (index < 0)
+            return false;
+        length = snprintf(resolved, bytes, "%s%d%s", stem, index, rest + step_length(rest));
+    }
+    return (size_t)length < bytes ||
+           pel_fail(PEL_ERROR_ARGUMENT, "the key has more than %zu bytes", bytes - 1);
 }
 
 bool pel_scene_override(json_t *scene, const char *override) {

@@ -3,6 +3,7 @@
 #define PEL_WORLD_SCENE_OVERRIDE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include <jansson.h>
 
@@ -11,6 +12,14 @@
 // are missing. VALUE is JSON or a plain word; null removes what is there. Fails (ARGUMENT) when the
 // path cannot be followed.
 bool pel_scene_override(json_t *scene, const char *override);
+
+// Puts a value at a dotted path, likewise.
+bool pel_scene_put(json_t *scene, const char *path, const json_t *value);
+
+// The path with volumes by their index where it has them by their name: "volumes.ct.density"
+// becomes "volumes.1.density". Fails (ARGUMENT) when no volume has that name, or several do, or
+// when it does not fit.
+bool pel_scene_key_resolve(char *resolved, size_t bytes, const json_t *scene, const char *path);
 
 // True when the value at `path` came from this override, or lies inside a value that did.
 bool pel_scene_override_covers(const char *override, const char *path);

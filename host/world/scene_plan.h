@@ -37,8 +37,10 @@ struct pel_volume_plan {
     double spacing[3]; // replaces the file's; 0 = does not
     struct pel_pose_plan pose;
     bool filter_given;
-    double opacity_unit_mm; // replaces the transfer function's; 0 = does not
-    const char *palette;    // preset whose colours an automatic transfer function takes, or NULL
+    double opacity_unit_mm;       // replaces the transfer function's; 0 = does not
+    struct pel_transfer *towards; // owned; the transfer function is on its way there, or NULL,
+    double towards_share;         // and how far it got
+    const char *palette; // preset whose colours an automatic transfer function takes, or NULL
 };
 
 struct pel_scene_plan {
@@ -57,6 +59,8 @@ bool pel_scene_read_camera(struct pel_camera_plan *plan, const struct pel_scene_
 bool pel_scene_read_pose(struct pel_pose_plan *pose, const struct pel_scene_node *node);
 bool pel_scene_read_source(struct pel_volume_plan *plan, const struct pel_scene_node *node);
 bool pel_scene_read_transfer(struct pel_transfer **transfer, const struct pel_scene_node *node);
+bool pel_scene_read_transfer_value(struct pel_transfer **transfer,
+                                   const struct pel_scene_node *node);
 
 bool pel_scene_read_lights(struct pel_scene *scene, const struct pel_scene_node *node);
 bool pel_scene_read_style(struct pel_instance *instance, const struct pel_scene_node *volume);
@@ -76,8 +80,10 @@ bool pel_scene_read_model(struct pel_instance *instance, const struct pel_scene_
 bool pel_scene_find_instance(const struct pel_scene *scene, const struct pel_scene_node *node,
                              const char *name, int *instance);
 
-// Second pass. `scene` owns what was loaded even when it fails.
-bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan);
+// Second pass. `scene` owns what was loaded even when it fails. Volumes that the scene `before`
+// (which may be NULL) has too are shared with it instead of being loaded again.
+bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan,
+                            const struct pel_scene *before);
 bool pel_scene_place_camera(struct pel_scene *scene, const struct pel_camera_plan *plan);
 
 // A transfer function that shows what is in a volume nobody has described: see scene_auto.c. The

@@ -20,16 +20,20 @@ static bool read_named(struct pel_transfer **transfer, const struct pel_scene_no
     return *transfer || pel_node_fail_in(node);
 }
 
-bool pel_scene_read_transfer(struct pel_transfer **transfer, const struct pel_scene_node *volume) {
-    struct pel_scene_node node;
-    if (!pel_node_member(&node, volume, "transfer"))
-        return true;
-    if (json_is_string(node.value))
-        return read_named(transfer, &node);
+bool pel_scene_read_transfer_value(struct pel_transfer **transfer,
+                                   const struct pel_scene_node *node) {
+    if (json_is_string(node->value))
+        return read_named(transfer, node);
     const char *bad_key;
-    *transfer = pel_transfer_parse(node.value, &bad_key);
+    *transfer = pel_transfer_parse(node->value, &bad_key);
     if (*transfer)
         return true;
-    struct pel_scene_node bad = {.document = node.document, .parent = &node, .key = bad_key};
-    return pel_node_fail_in(*bad_key ? &bad : &node);
+    struct pel_scene_node bad = {.document = node->document, .parent = node, .key = bad_key};
+    return pel_node_fail_in(*bad_key ? &bad : node);
+}
+
+bool pel_scene_read_transfer(struct pel_transfer **transfer, const struct pel_scene_node *volume) {
+    struct pel_scene_node node;
+    return !pel_node_member(&node, volume, "transfer") ||
+           pel_scene_read_transfer_value(transfer, &node);
 }

@@ -150,5 +150,6 @@ void pel_scene_plan_finish(struct pel_scene_plan *plan) {
     for (int i = 0; i < PEL_VOLUME_MAX; i++) {
         free(plan->volume[i].file);
         free(plan->volume[i].pose.file);
+        pel_transfer_destroy(plan->volume[i].towards);
     }
 }

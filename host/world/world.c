@@ -277,6 +277,8 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (!fill_filter(&pattern, instance))
             return false;
         pattern.step_mm = (float)pel_step_of_instance(scene, instance);
+        if (world->models & MODELS_EMISSION)
+            pattern.filter = FILTERS_NEAREST;
         world->filters |= pattern.filter;
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;

@@ -253,6 +253,10 @@ bool reference_is_plain(const struct reference *reference) {
 void reference_gather(double rgba[4], const struct reference *reference,
                       const struct reference_path *path, const struct reference_errors *errors,
                       double sign, uint64_t *taken) {
+    if (reference->body_count > 0 && model_of(reference, 0) == PEL_MODEL_EMISSION) {
+        reference_emit(rgba, reference, path);
+        return;
+    }
     struct gathering gathering = {
         .reference = reference, .path = path, .errors = errors, .sign = sign};
     double termination = reference->scene->render.termination, so_far[4] = {0};

@@ -52,6 +52,9 @@ pairs = {
     "scene_read_settings.c:supersampling_keys": (defs["supersampling"], "supersampling"),
     "scene_read_settings.c:output_keys": (defs["output"], "output"),
     "scene_read_stereo.c:stereo_keys": (defs["stereo"], "stereo"),
+    "scene_read_animation.c:animation_keys": (defs["animation"], "animation"),
+    "scene_read_animation.c:track_keys": (defs["track"], "track"),
+    "scene_read_animation.c:orbit_keys": (defs["track"]["properties"]["orbit"], "orbit"),
 }
 readme = open("scenes/README.md").read()
 sections = {s.split("\n")[0]: s for s in re.split(r"^## ", readme, flags=re.M)[1:]}
@@ -100,10 +103,12 @@ def place(section, key, value):
     holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"}, "raw": {"dims": [1, 1, 1]},
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
                "render": {}, "stereo": {}, "output": {}, "light": {}, "shading": {}, "supersampling": {}, "iso": {"value": 1},
-              "bricks": {}}[section]
+               "bricks": {}, "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
     if section == "transform":
         holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
                        "comment": {"file": "a"}}.get(key, {}))
+    if section == "track" and key == "orbit":
+        holder.clear()
     if section == "light":
         holder["kind"] = {"direction": "directional", "position": "point"}.get(key, "headlight")
     holder[key] = value
@@ -116,13 +121,17 @@ def place(section, key, value):
         volume = {"generate": holder}
     elif section in ("supersampling", "bricks"):
         return {"volumes": [volume], "render": {section: holder}}
+    elif section == "track":
+        return {"volumes": [volume], "animation": {"tracks": [holder]}}
+    elif section == "orbit":
+        return {"volumes": [volume], "animation": {"tracks": [inner]}}
     elif section == "rotate":
         volume["transform"] = {"rotate": holder}
     elif section == "light":
         return {"volumes": [volume], "lights": [holder]}
     elif section in ("raw", "transform", "transfer", "shading", "iso"):
         volume[section] = holder
-    return {"volumes": [volume], **(inner if section in ("camera", "render", "stereo", "output") else {})}
+    return {"volumes": [volume], **(inner if section in ("camera", "render", "stereo", "animation", "output") else {})}
 for _, section in pairs.values():
     if not section:
         continue
@@ -135,11 +144,12 @@ for _, section in pairs.values():
 good = {"volumes": [{"file": "a", "transfer": {"preset": "hot"}, "raw": {"dims": [1, 1, 1]},
                      "transform": {"rotate": {"axis": "x", "degrees": 1}}, "shading": {}},
                     {"generate": {"kind": "box"}}], "camera": {}, "lights": [{}], "render": {}, "stereo": {},
-        "output": {}}
+        "animation": {"tracks": [{"orbit": {}}]}, "output": {}}
 check(validator.is_valid(good), "a good scene is refused")
 for path in ([], ["volumes", 0], ["volumes", 0, "transfer"], ["volumes", 0, "raw"], ["volumes", 0, "transform"],
              ["volumes", 0, "transform", "rotate"], ["volumes", 1, "generate"], ["volumes", 0, "shading"],
-             ["lights", 0], ["camera"], ["render"], ["stereo"], ["output"]):
+             ["lights", 0], ["camera"], ["render"], ["stereo"], ["output"], ["animation"],
+             ["animation", "tracks", 0], ["animation", "tracks", 0, "orbit"]):
     bad = copy.deepcopy(good)
     at = bad
     for step in path:
@@ -150,7 +160,9 @@ for key, value in (("volumes", []), ("volumes", [{}]), ("volumes", [{"file": "a"
                    ("volumes", [{"generate": {"kind": "box"}, "time": 1}]), ("background", "pink"),
                    ("lights", []), ("lights", [{}] * 9), ("lights", [{"kind": "point"}]),
                    ("lights", [{"direction": [0, 0, 1]}]), ("camera", {"fov": 180}), ("render", {"step": 0}),
-                   ("stereo", {"kind": "3d"}), ("stereo", {"convergence": 0}), ("output", {"depth": 12})):
+                   ("stereo", {"kind": "3d"}), ("stereo", {"convergence": 0}), ("output", {"depth": 12}),
+                   ("animation", {"frames": 0}), ("animation", {"frames": 1, "duration": 1}),
+                   ("animation", {"tracks": [{}]}), ("animation", {"tracks": [{"key": "camera.fov"}]})):
     check(not validator.is_valid({**good, key: value}), "the schema takes", key, value)
 
 print("\n".join(failures) or "%d scenes and examples, %d tables of keys and names" % (len(scenes), len(tables)))
