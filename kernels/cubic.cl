@@ -102,7 +102,9 @@ INLINE struct sample sample_cubic(MEMORY_PARAMETERS, __constant struct part *par
 #if VOXELS & VOXELS_RGBA
     sum.r = sum.g = sum.b = (real)(0.0f);
 #endif
+#pragma unroll 1
     for (int k = 0; k < count; k++)
+#pragma unroll 1
         for (int j = 0; j < count; j++)
             for (int i = 0; i < count; i++) {
                 const real weight = along_x.weight[i] * along_y.weight[j] * along_z.weight[k];

@@ -48,6 +48,7 @@ INLINE void central_differences(MEMORY_PARAMETERS, __constant struct part *part,
 INLINE void sobel_differences(MEMORY_PARAMETERS, __constant struct part *part, real raw, real x,
                               real y, real z, real difference[3]) {
     difference[0] = difference[1] = difference[2] = (real)(0.0f);
+#pragma unroll 1
     for (int n = 0; n < 27; n++) {
         if (n == 13)
             continue;
@@ -69,6 +70,7 @@ INLINE void cell_differences(MEMORY_PARAMETERS, __constant struct part *part, re
     difference[0] = difference[1] = difference[2] = (real)(0.0f);
     const real first_x = floor(x), first_y = floor(y), first_z = floor(z);
     const real wx = x - first_x, wy = y - first_y, wz = z - first_z;
+#pragma unroll 1
     for (int n = 0; n < 8; n++) {
         const float dx = (float)(n & 1), dy = (float)(n >> 1 & 1), dz = (float)(n >> 2);
         real value =
@@ -88,6 +90,7 @@ INLINE void analytic_differences(MEMORY_PARAMETERS, __constant struct part *part
                                  real y, real z, real difference[3]) {
 #if FILTERS & FILTERS_CUBIC
     if (IS_FILTER(part, FILTERS_CUBIC_B_SPLINE) || IS_FILTER(part, FILTERS_CATMULL_ROM)) {
+#pragma unroll 1
         for (int axis = 0; axis < 3; axis++)
             difference[axis] = 2.0f * sample_cubic(MEMORY_ARGUMENTS, part, x, y, z, axis).raw;
         return;
