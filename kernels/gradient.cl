@@ -18,13 +18,15 @@
 
 #if SHADING
 // The raw value near a sample whose own is `raw`, which takes the place of an absent one. Beyond
-// the volume it goes on as at its edge.
+// the volume it goes on as at its edge: a cubic filter sees to that itself, voxel by voxel.
 INLINE real neighbour(MEMORY_PARAMETERS, __constant struct part *part, real raw, real x, real y,
                       real z) {
-    const float4 high = part->memory_high;
-    x = AT_MOST(AT_LEAST(x, (real)(0.5f)), (real)(high.x));
-    y = AT_MOST(AT_LEAST(y, (real)(0.5f)), (real)(high.y));
-    z = AT_MOST(AT_LEAST(z, (real)(0.5f)), (real)(high.z));
+    if (!IS_CUBIC(part)) {
+        const float4 high = part->memory_high;
+        x = AT_MOST(AT_LEAST(x, (real)(0.5f)), (real)(high.x));
+        y = AT_MOST(AT_LEAST(y, (real)(0.5f)), (real)(high.y));
+        z = AT_MOST(AT_LEAST(z, (real)(0.5f)), (real)(high.z));
+    }
     const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
 #if VOXELS & VOXELS_F32
     return CHOOSE(sample.raw, raw, MASK(sample.raw != sample.raw));
@@ -89,7 +91,7 @@ INLINE void cell_differences(MEMORY_PARAMETERS, __constant struct part *part, re
 INLINE void analytic_differences(MEMORY_PARAMETERS, __constant struct part *part, real raw, real x,
                                  real y, real z, real difference[3]) {
 #if FILTERS & FILTERS_CUBIC
-    if (IS_FILTER(part, FILTERS_CUBIC_B_SPLINE) || IS_FILTER(part, FILTERS_CATMULL_ROM)) {
+    if (IS_CUBIC(part)) {
 #pragma unroll 1
         for (int axis = 0; axis < 3; axis++)
             difference[axis] = 2.0f * sample_cubic(MEMORY_ARGUMENTS, part, x, y, z, axis).raw;

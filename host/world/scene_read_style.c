@@ -1,5 +1,7 @@
-// scene_read_style.c - `gradient`, `gradient_opacity` and `silhouette` of a volume.
+// scene_read_style.c - `gradient`, `gradient_opacity` and `silhouette` of a volume, read and
+// written.
 #include "world/scene_plan.h"
+#include "world/scene_write.h"
 
 static const char *const silhouette_keys[] = {"comment", "base", "strength", "exponent", NULL};
 
@@ -8,6 +10,8 @@ static const char *const gradient_names[] = {"central", "sobel", "analytic", NUL
 
 static const struct pel_range gradient_range = {.low = 0, .high = 1e9};
 static const struct pel_range factor_range = {.low = 0, .high = PEL_OPACITY_FACTOR_MAX};
+
+static const struct pel_silhouette usual_silhouette = {.base = 1, .strength = 4, .exponent = 4};
 
 // [low, high] is short for [[low, 0], [high, 1]].
 static bool read_ramp(struct pel_instance *instance, const struct pel_scene_node *list) {
@@ -66,7 +70,7 @@ static bool read_silhouette(struct pel_silhouette *silhouette,
                                              .high = PEL_SILHOUETTE_EXPONENT_MAX};
     if (!pel_node_member(&node, volume, "silhouette"))
         return true;
-    *silhouette = (struct pel_silhouette){.base = 1, .strength = 4, .exponent = 4};
+    *silhouette = usual_silhouette;
     return pel_node_check_object(&node, silhouette_keys) &&
            pel_node_get_number(&node, "base", &factor_range, &silhouette->base) &&
            pel_node_get_number(&node, "strength", &factor_range, &silhouette->strength) &&
@@ -80,4 +84,26 @@ bool pel_scene_read_style(struct pel_instance *instance, const struct pel_scene_
                 read_silhouette(&instance->silhouette, volume);
     instance->gradient = (enum pel_gradient)gradient;
     return good;
+}
+
+void pel_scene_write_style(struct pel_scene_writer *writer, json_t *volume,
+                           const struct pel_instance *instance) {
+    pel_write_name(writer, volume, "gradient", gradient_names, (int)instance->gradient,
+                   PEL_GRADIENT_CENTRAL);
+    if (instance->gradient_opacity_count > 0) {
+        json_t *list = json_array();
+        for (int n = 0; n < instance->gradient_opacity_count; n++) {
+            const struct pel_gradient_point *point = &instance->gradient_opacity[n];
+            const double pair[2] = {point->gradient, point->factor};
+            json_array_append_new(list, pel_write_make_numbers(2, pair));
+        }
+        pel_write_value(writer, volume, "gradient_opacity", list);
+    }
+    const struct pel_silhouette *silhouette = &instance->silhouette;
+    if (silhouette->base == 0 && silhouette->strength == 0 && silhouette->exponent == 0)
+        return;
+    json_t *object = pel_write_object(writer, volume, "silhouette");
+    pel_write_number(writer, object, "base", silhouette->base, usual_silhouette.base);
+    pel_write_number(writer, object, "strength", silhouette->strength, usual_silhouette.strength);
+    pel_write_number(writer, object, "exponent", silhouette->exponent, usual_silhouette.exponent);
 }

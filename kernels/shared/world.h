@@ -69,14 +69,17 @@ struct part {
     float step_mm;              // the distance of its samples where it has a grid of its own
     float density;              //
     i32 number;                 // of the part
+    float rank;                 // of its priority among the visible instances'
+    i32 medium;                 // which of the media that are mixed, or MEDIUM_NONE
     i32 gradient;               // one of GRADIENT_*
     i32 styled;                 // 1: opacity follows the gradient, as the next two say
     i32 ramp_count;             //
+    i32 pad[2];
     float4 silhouette;          // base, strength and exponent; and the factor before all ramps
     float4 ramps[GRADIENT_RAMPS]; // start, 1 / width, in ranges of the table per mm; rise of the factor
 };
 
-SHARED_ASSERT(sizeof(struct part) == 400, part_size);
+SHARED_ASSERT(sizeof(struct part) == 416, part_size);
 
 struct world {
     struct camera camera;
@@ -96,11 +99,11 @@ struct world {
     float contrast;     // between neighbours, beyond which a pixel takes all its rays; 0: all do
     i32 lamp_count;
     i32 debug; // one of DEBUG_*
-    i32 pad[1];
+    i32 medium_count; // instances that are mixed
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
 };
 
-SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 400 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 416 * WORLD_PART_MAX, world_size);
 
 #endif
