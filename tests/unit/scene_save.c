@@ -55,7 +55,7 @@ static const char *const rich[] = {
     "'iso': [3.5, {'value': 4, 'colour': [0.1, 0.2, 0.3], 'opacity': 0.3}]}],"
     " 'render': {'size': [34, 22], 'mixing': 'over', 'step': 0.7, 'phase': 0.25,"
     "   'termination': 0.8, 'origin': 'bounds', 'skip': 'grid', 'bricks': {'size': 16, 'cluster': "
-    "false}, 'jitter': true, 'debug': 'spans', "
+    "false, 'pool': 'on'}, 'jitter': true, 'debug': 'spans', "
     "'model': 'mip', 'order': 'back-to-front', 'emission_scale': 0.3,"
     "   'supersampling': {'n': 2, 'pattern': 'n-rooks', 'filter': 'gaussian', 'seed': 3,"
     "   'adaptive': 0.1}},"
