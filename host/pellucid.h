@@ -466,6 +466,22 @@ struct pel_silhouette {
     double base, strength, exponent;
 };
 
+#define PEL_CLIP_MAX 8
+
+enum pel_clip_kind { PEL_CLIP_PLANE, PEL_CLIP_BOX };
+
+// What is kept of a volume, or of all: one side of a plane, or the inside or outside of a box
+// (docs/mixing.md, "Clipping"). Of several all must hold. Gradients are those of the whole volume.
+struct pel_clip {
+    enum pel_clip_kind kind;
+    bool outside;     // keep what is behind the plane, or cut the box's inside away
+    bool in_world;    // of a volume's: stays where it is when `transform` moves the volume
+    double point[3];  // of the plane, or the middle of the box; millimetres
+    double normal[3]; // of the plane, towards what is kept; any length but zero
+    double size[3];   // of the box
+    double xyzw[4];   // rotation of the box about its middle; all zero for none
+};
+
 // One volume as it stands in a scene. Several instances may show one volume.
 struct pel_instance {
     char name[64];
@@ -487,6 +503,8 @@ struct pel_instance {
     bool preintegration;  // of absorption: what lies between two samples counts
     int surface_count;    // of model iso; 0: one of the middle value, opaque
     struct pel_surface surfaces[PEL_SURFACE_MAX];
+    int clip_count;
+    struct pel_clip clips[PEL_CLIP_MAX];
     double priority; // of PEL_MIX_PRIORITY: the greater one wins, of equals the first in the list
 };
 
@@ -641,6 +659,8 @@ struct pel_scene {
     struct pel_instance instances[PEL_VOLUME_MAX];
     int light_count; // 0: one white headlight
     struct pel_light lights[PEL_LIGHT_MAX];
+    int clip_count; // of all volumes, in the world
+    struct pel_clip clips[PEL_CLIP_MAX];
     struct pel_render_settings render;
     struct pel_stereo stereo;
     struct pel_wall wall; // of the viewer; pictures are rendered whole

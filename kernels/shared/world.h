@@ -18,6 +18,9 @@
 // 32 volumes, and room for the slabs of volumes too large for one buffer.
 #define WORLD_PART_MAX 64
 
+// Rows of clip planes and boxes: of 32 volumes, 8 boxes of three rows each and 8 of the scene.
+#define WORLD_CUT_MAX (32 * 16 * 3)
+
 // The ray of picture-plane coordinates (u, v), in -1..1 upwards and to the right, starts at
 // eye + u * eye_right + v * eye_up and runs along forward + u * right + v * up.
 struct camera {
@@ -71,6 +74,8 @@ struct part {
     i32 number;                 // of the part
     float rank;                 // of its priority among the visible instances'
     i32 medium;                 // which of the media that are mixed, or MEDIUM_NONE
+    i32 cuts;                   // index of the first of its clips: planes, boxes, cut-away boxes
+    i32 plane_count, box_count, hole_count;
     i32 gradient;               // one of GRADIENT_*
     i32 styled;                 // 1: opacity follows the gradient, as the next two say
     i32 ramp_count;             //
@@ -79,7 +84,7 @@ struct part {
     float4 ramps[GRADIENT_RAMPS]; // start, 1 / width, in ranges of the table per mm; rise of the factor
 };
 
-SHARED_ASSERT(sizeof(struct part) == 416, part_size);
+SHARED_ASSERT(sizeof(struct part) == 432, part_size);
 
 struct world {
     struct camera camera;
@@ -102,8 +107,10 @@ struct world {
     i32 medium_count; // instances that are mixed
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
+    float4 cuts[WORLD_CUT_MAX]; // only as many as there are reach the device
 };
 
-SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 416 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 432 * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
+              world_size);
 
 #endif
