@@ -444,6 +444,28 @@ struct pel_material {
 // VTK's and ours: ambient 0.1, diffuse 0.7, specular 0.2, shininess 10, two-sided.
 PEL_API struct pel_material pel_material_default(enum pel_shading shading);
 
+// How gradients are found: from values one voxel away along the volume's axes, the same smoothed
+// across them (Sobel), or as the derivative of the filter itself.
+enum pel_gradient { PEL_GRADIENT_CENTRAL, PEL_GRADIENT_SOBEL, PEL_GRADIENT_ANALYTIC };
+
+#define PEL_GRADIENT_POINT_MAX 4
+#define PEL_OPACITY_FACTOR_MAX 1000.0
+#define PEL_SILHOUETTE_EXPONENT_MIN 0.25
+#define PEL_SILHOUETTE_EXPONENT_MAX 1000.0
+
+// A volume's extinction is multiplied by a function of its gradient's length (after Levoy 1988):
+// linear between points, constant beyond the outer ones.
+struct pel_gradient_point {
+    double gradient; // in the file's unit per millimetre, ascending
+    double factor;   // 0..PEL_OPACITY_FACTOR_MAX
+};
+
+// And by base + strength (1 - |n.v|)^exponent, so that surfaces seen from the side stand out (Ebert
+// & Rheingans 2000). All zero: not at all.
+struct pel_silhouette {
+    double base, strength, exponent;
+};
+
 #define PEL_CLIP_MAX 8
 
 enum pel_clip_kind { PEL_CLIP_PLANE, PEL_CLIP_BOX };
@@ -471,11 +493,15 @@ struct pel_instance {
     enum pel_filter filter;      //
     struct pel_transfer *transfer; // owned, resolved
     struct pel_material material;  //
-    double step;                   // of its samples, in its own finest voxels; 0 = the scene's
-    double step_mm;                // the same in millimetres, instead of `step`; 0 = as `step` says
-    enum pel_model model;          //
-    bool preintegration;           // of absorption: what lies between two samples counts
-    int surface_count;             // of model iso; 0: one of the middle value, opaque
+    enum pel_gradient gradient;    //
+    int gradient_opacity_count;    // 0: opacity does not depend on the gradient
+    struct pel_gradient_point gradient_opacity[PEL_GRADIENT_POINT_MAX];
+    struct pel_silhouette silhouette;
+    double step;          // of its samples, in its own finest voxels; 0 = the scene's
+    double step_mm;       // the same in millimetres, instead of `step`; 0 = as `step` says
+    enum pel_model model; //
+    bool preintegration;  // of absorption: what lies between two samples counts
+    int surface_count;    // of model iso; 0: one of the middle value, opaque
     struct pel_surface surfaces[PEL_SURFACE_MAX];
     int clip_count;
     struct pel_clip clips[PEL_CLIP_MAX];

@@ -34,6 +34,22 @@ INLINE void catmull_rom_weights(real f, real weight[4]) {
     weight[3] = 0.5f * f * f * (f - 1.0f);
 }
 
+// The derivatives of the weights by the place. Those of a pair have one sign, too.
+INLINE void b_spline_slopes(real f, real weight[4]) {
+    const real g = 1.0f - f;
+    weight[0] = -0.5f * g * g;
+    weight[1] = 0.5f * f * (3.0f * f - 4.0f);
+    weight[2] = -0.5f * g * (3.0f * g - 4.0f);
+    weight[3] = 0.5f * f * f;
+}
+
+INLINE void catmull_rom_slopes(real f, real weight[4]) {
+    weight[0] = 0.5f * (f * (4.0f - 3.0f * f) - 1.0f);
+    weight[1] = 0.5f * f * (9.0f * f - 10.0f);
+    weight[2] = 0.5f * (f * (8.0f - 9.0f * f) + 1.0f);
+    weight[3] = 0.5f * f * (3.0f * f - 2.0f);
+}
+
 // Two linear samples in the place of four voxels.
 INLINE void pair_taps(struct taps *taps, real start, const real weight[4], float high) {
     for (int pair = 0; pair < 2; pair++) {
@@ -52,32 +68,43 @@ INLINE void single_taps(struct taps *taps, real start, const real weight[4], flo
     }
 }
 
-INLINE void cubic_taps(struct taps *taps, __constant struct part *part, real x, float high) {
+// With `slope`, those of the derivative.
+INLINE void cubic_taps(struct taps *taps, __constant struct part *part, real x, float high,
+                       bool slope) {
     const real start = floor(x);
     real weight[4];
     if (IS_FILTER(part, FILTERS_CUBIC_B_SPLINE)) {
-        b_spline_weights(x - start, weight);
+        if (slope)
+            b_spline_slopes(x - start, weight);
+        else
+            b_spline_weights(x - start, weight);
         pair_taps(taps, start, weight, high);
     } else {
-        catmull_rom_weights(x - start, weight);
+        if (slope)
+            catmull_rom_slopes(x - start, weight);
+        else
+            catmull_rom_weights(x - start, weight);
         single_taps(taps, start, weight, high);
     }
 }
 
+// The value at a place, or its derivative along an axis of the volume (0, 1, 2; -1: the value).
 INLINE struct sample sample_cubic(MEMORY_PARAMETERS, __constant struct part *part, real x, real y,
-                                  real z) {
+                                  real z, int slope) {
     const bool linear = IS_FILTER(part, FILTERS_CUBIC_B_SPLINE);
     const int count = linear ? 2 : 4;
     struct taps along_x, along_y, along_z;
-    cubic_taps(&along_x, part, x, part->memory_high.x);
-    cubic_taps(&along_y, part, y, part->memory_high.y);
-    cubic_taps(&along_z, part, z, part->memory_high.z);
+    cubic_taps(&along_x, part, x, part->memory_high.x, slope == 0);
+    cubic_taps(&along_y, part, y, part->memory_high.y, slope == 1);
+    cubic_taps(&along_z, part, z, part->memory_high.z, slope == 2);
     struct sample sum;
     sum.raw = (real)(0.0f);
 #if VOXELS & VOXELS_RGBA
     sum.r = sum.g = sum.b = (real)(0.0f);
 #endif
+#pragma unroll 1
     for (int k = 0; k < count; k++)
+#pragma unroll 1
         for (int j = 0; j < count; j++)
             for (int i = 0; i < count; i++) {
                 const real weight = along_x.weight[i] * along_y.weight[j] * along_z.weight[k];

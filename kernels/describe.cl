@@ -80,6 +80,11 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, plane_count);
     *out++ = OFFSET(struct part, box_count);
     *out++ = OFFSET(struct part, hole_count);
+    *out++ = OFFSET(struct part, gradient);
+    *out++ = OFFSET(struct part, styled);
+    *out++ = OFFSET(struct part, ramp_count);
+    *out++ = OFFSET(struct part, silhouette);
+    *out++ = OFFSET(struct part, ramps);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);

@@ -11,6 +11,7 @@
 #include "pixel.cl"
 #include "shade.cl"
 #include "span.cl"
+#include "style.cl"
 #if DEBUG
 #include "debug.cl"
 #endif
@@ -120,7 +121,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             }
 #endif
             const struct entry entry = find_entry(part, sample.raw, &present);
-            const real strength = entry_strength(table, &entry);
+            real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
 #if PROBE
             log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, layer->a);
@@ -146,10 +147,10 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             }
 #endif
 #if SHADING
-            if (part->shading != SHADING_NONE)
-                shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
+            if (HAS_NORMALS(part))
+                style(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
                       SAMPLE_NUMBER(crossing, c, t), x, y, z, CHOOSE(zero, sample.raw, visible),
-                      &r, &g, &b);
+                      &strength, &r, &g, &b);
 #endif
 #if PROBE
             log_colour(crossing, r, g, b);

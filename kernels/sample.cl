@@ -32,6 +32,7 @@
 #endif
 #define IS_FILTER(part, which)                                                                     \
     (FILTERS == (which) || ((FILTERS & (which)) != 0 && (part)->filter == (which)))
+#define IS_CUBIC(part) (IS_FILTER(part, FILTERS_CUBIC_B_SPLINE) || IS_FILTER(part, FILTERS_CATMULL_ROM))
 
 // A sample: the value that the transfer function asks for, and a colour volume's own colour in 0..1.
 struct sample {
@@ -57,8 +58,8 @@ INLINE real mix_lanes(real a, real b, real weight) {
 INLINE struct sample sample_part(MEMORY_PARAMETERS, __constant struct part *part, real x, real y,
                                  real z) {
 #if FILTERS & FILTERS_CUBIC
-    if (IS_FILTER(part, FILTERS_CUBIC_B_SPLINE) || IS_FILTER(part, FILTERS_CATMULL_ROM))
-        return sample_cubic(MEMORY_ARGUMENTS, part, x, y, z);
+    if (IS_CUBIC(part))
+        return sample_cubic(MEMORY_ARGUMENTS, part, x, y, z, -1);
 #endif
     return fetch_part(MEMORY_ARGUMENTS, part, IS_FILTER(part, FILTERS_NEAREST), x, y, z);
 }

@@ -1,14 +1,14 @@
 // shade.cl - light on a sample, from the gradient of the values around it.
 //
-// The gradient is the central difference of interpolated values one voxel away along the volume's
-// own axes: six more samples, as in VTK, taken only where something is visible. Normals and lights
-// are in world space; a gradient goes there by the transpose of voxel_from_world, so that
-// anisotropic and oblique volumes are shaded right. A gradient fades out below SHADE_SOFTNESS of
+// Normals and lights are in world space; a gradient (gradient.cl) goes there by the transpose of
+// voxel_from_world, so that anisotropic and oblique volumes are shaded right. It is looked for only
+// where something is visible. A gradient fades out below SHADE_SOFTNESS of
 // the table's range per voxel, where direction is rounding. See docs/picture.md, "Shading". Phong
 // 1975; Blinn 1977.
 #ifndef SHADE_CL
 #define SHADE_CL
 
+#include "gradient.cl"
 #include "ray.cl"
 #include "sample.cl"
 
@@ -33,43 +33,25 @@ INLINE void make_unit(struct vector *v) {
     v->z *= scale;
 }
 
-// The raw value near a sample whose own is `raw`, which takes the place of an absent one. Beyond
-// the volume it goes on as at its edge.
-INLINE real neighbour(MEMORY_PARAMETERS, __constant struct part *part, real raw, real x, real y,
-                      real z) {
-    const float4 high = part->memory_high;
-    x = AT_MOST(AT_LEAST(x, (real)(0.5f)), (real)(high.x));
-    y = AT_MOST(AT_LEAST(y, (real)(0.5f)), (real)(high.y));
-    z = AT_MOST(AT_LEAST(z, (real)(0.5f)), (real)(high.z));
-    const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
-#if VOXELS & VOXELS_F32
-    return CHOOSE(sample.raw, raw, MASK(sample.raw != sample.raw));
-#else
-    return sample.raw;
-#endif
-}
-
 // The normal at a place in memory coordinates, in world space. It points to lesser values, has
-// length 1, and less where the gradient is next to nothing.
+// length 1, and less where the gradient is next to nothing. `*slope` is the gradient's length, in
+// ranges of the table per millimetre.
 INLINE struct vector find_normal(MEMORY_PARAMETERS, __constant struct part *part, real raw, real x,
-                                 real y, real z) {
+                                 real y, real z, real *slope) {
     real difference[3];
-    for (int axis = 0; axis < 3; axis++) {
-        const float dx = axis == 0 ? 1.0f : 0.0f, dy = axis == 1 ? 1.0f : 0.0f,
-                    dz = axis == 2 ? 1.0f : 0.0f;
-        const real before = neighbour(MEMORY_ARGUMENTS, part, raw, x - dx, y - dy, z - dz);
-        const real behind = neighbour(MEMORY_ARGUMENTS, part, raw, x + dx, y + dy, z + dz);
-        // The squares of what floats can hold could be infinite.
-        difference[axis] = clamp((behind - before) * part->normal_scale, -1e9f, 1e9f);
-    }
+    find_differences(MEMORY_ARGUMENTS, part, raw, x, y, z, difference);
+    // The squares of what floats can hold could be infinite.
+    for (int axis = 0; axis < 3; axis++)
+        difference[axis] = clamp(difference[axis] * part->normal_scale, -1e9f, 1e9f);
     __constant const float4 *rows = part->voxel_from_world;
     struct vector normal;
     normal.x = rows[0].x * difference[0] + rows[1].x * difference[1] + rows[2].x * difference[2];
     normal.y = rows[0].y * difference[0] + rows[1].y * difference[1] + rows[2].y * difference[2];
     normal.z = rows[0].z * difference[0] + rows[1].z * difference[1] + rows[2].z * difference[2];
-    const real scale = part->spacing_mm /
-                       sqrt(dot_lanes(&normal, &normal) * (part->spacing_mm * part->spacing_mm) +
-                            SHADE_SOFTNESS * SHADE_SOFTNESS);
+    const real square = dot_lanes(&normal, &normal);
+    *slope = sqrt(square);
+    const real scale = part->spacing_mm / sqrt(square * (part->spacing_mm * part->spacing_mm) +
+                                               SHADE_SOFTNESS * SHADE_SOFTNESS);
     normal.x *= scale;
     normal.y *= scale;
     normal.z *= scale;
@@ -104,13 +86,10 @@ INLINE real highlight_cosine(__constant struct part *part, const struct vector *
     return part->one_sided ? cosine : fabs(cosine);
 }
 
-// Shades the straight colour of sample i of a ray whose sample 0 lies at t_first. `raw` is the
-// value there, at (x, y, z) in memory coordinates, and must not be absent.
-INLINE void shade(__constant struct world *world, __constant struct part *part, MEMORY_PARAMETERS,
-                  const struct ray *ray, real t_first, real i, real x, real y, real z, real raw,
-                  real *r, real *g, real *b) {
-    const struct vector normal = find_normal(MEMORY_ARGUMENTS, part, raw, x, y, z);
-    const real t = t_first + i * world->step_mm;
+// Shades the straight colour of a sample at t along a ray, where the normal is known.
+INLINE void light_up(__constant struct world *world, __constant struct part *part,
+                     const struct ray *ray, real t, const struct vector *normal, real *r, real *g,
+                     real *b) {
     const float4 material = part->material;
     const struct vector v = {-ray->dx, -ray->dy, -ray->dz};
     const real zero = (real)(0.0f), ambient = (real)(material.x);
@@ -118,9 +97,9 @@ INLINE void shade(__constant struct world *world, __constant struct part *part, 
     for (int n = 0; n < world->lamp_count; n++) {
         __constant struct lamp *lamp = &world->lamps[n];
         const struct vector l = towards_lamp(lamp, ray, t);
-        const real facing = dot_lanes(&normal, &l);
+        const real facing = dot_lanes(normal, &l);
         const real lit = part->one_sided ? AT_LEAST(facing, zero) : fabs(facing);
-        const real cosine = highlight_cosine(part, &normal, &l, &v);
+        const real cosine = highlight_cosine(part, normal, &l, &v);
         // The cosine's floor makes a power of nothing as good as nothing.
         real shine = exp2(material.w * log2(AT_LEAST(cosine, (real)(1e-30f))));
         if (part->one_sided)
@@ -136,6 +115,16 @@ INLINE void shade(__constant struct world *world, __constant struct part *part, 
     *r = *r * matt.x + gloss.x;
     *g = *g * matt.y + gloss.y;
     *b = *b * matt.z + gloss.z;
+}
+
+// Shades the straight colour of sample i of a ray whose sample 0 lies at t_first. `raw` is the
+// value there, at (x, y, z) in memory coordinates, and must not be absent.
+INLINE void shade(__constant struct world *world, __constant struct part *part, MEMORY_PARAMETERS,
+                  const struct ray *ray, real t_first, real i, real x, real y, real z, real raw,
+                  real *r, real *g, real *b) {
+    real slope;
+    const struct vector normal = find_normal(MEMORY_ARGUMENTS, part, raw, x, y, z, &slope);
+    light_up(world, part, ray, t_first + i * world->step_mm, &normal, r, g, b);
 }
 #endif
 

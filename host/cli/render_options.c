@@ -21,6 +21,7 @@ enum {
     KEY_PREINTEGRATION,
     KEY_ORDER,
     KEY_FILTER,
+    KEY_GRADIENT,
     KEY_TERMINATION,
     KEY_PHASE,
     KEY_SKIP,
@@ -93,6 +94,8 @@ static const struct argp_option argp_options[] = {
     {"density", KEY_DENSITY, "X", 0, "Multiplies the extinction", 0},
     {"filter", KEY_FILTER, "linear|nearest|cubic-b-spline|catmull-rom", 0,
      "Interpolation between voxels; the cubic ones are smoother and slower", 0},
+    {"gradient", KEY_GRADIENT, "central|sobel|analytic", 0,
+     "How the gradients that light and opacity follow are found", 0},
     {"shading", KEY_SHADING, "on|off|KEY=VALUE,...", OPTION_ARG_OPTIONAL,
      "Light them by the gradient of their values; or not; or with keys of the scene's shading, "
      "such "
@@ -336,6 +339,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_FILTER:
         overrides_add_text(&options->overrides, "volumes.*.filter", argument);
+        break;
+    case KEY_GRADIENT:
+        overrides_add_text(&options->overrides, "volumes.*.gradient", argument);
         break;
     case KEY_DENSITY:
         good = add_number(options, "--density", "volumes.*.density", argument);

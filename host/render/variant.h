@@ -19,7 +19,8 @@ struct pel_variant {
     bool pool;      // bricks come from a pool
     int capacity;   // parts: 1, 8 or WORLD_PART_MAX
     bool clip;      // some part is clipped
-    bool shading;   // some part is shaded
+    bool shading;   // some part needs normals
+    bool style;     // other gradients than central differences, or opacity that follows them
     bool table_linear;
     bool supersampling; // one of several rays of each pixel at a time
     bool jitter;        // every ray has a phase of its own

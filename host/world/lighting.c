@@ -84,6 +84,10 @@ bool pel_lighting_fill_lamps(struct world *world, const struct pel_scene *scene,
 bool pel_lighting_fill_part(struct part *part, const struct pel_instance *instance,
                             const struct pel_volume *volume) {
     struct pel_material material = instance->material;
+    double spacing[3];
+    pel_volume_spacing(volume, spacing);
+    part->spacing_mm = (float)fmin(spacing[0], fmin(spacing[1], spacing[2]));
+    part->normal_scale = part->table_last > 0 ? -part->table_scale / part->table_last / 2 : 0;
     if (material.shading == PEL_SHADING_NONE)
         return true;
     if (material.ambient == 0 && material.diffuse == 0 && material.specular == 0 &&
@@ -105,10 +109,6 @@ bool pel_lighting_fill_part(struct part *part, const struct pel_instance *instan
     part->one_sided = material.one_sided;
     part->material = (float4){(float)material.ambient, (float)material.diffuse,
                               (float)material.specular, (float)material.shininess};
-    double spacing[3];
-    pel_volume_spacing(volume, spacing);
-    part->spacing_mm = (float)fmin(spacing[0], fmin(spacing[1], spacing[2]));
-    part->normal_scale = part->table_last > 0 ? -part->table_scale / part->table_last / 2 : 0;
     return true;
 }
 

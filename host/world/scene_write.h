@@ -59,6 +59,8 @@ void pel_scene_write_pose(struct pel_scene_writer *writer, json_t *volume,
 void pel_scene_write_march(struct pel_scene_writer *writer, json_t *render);
 void pel_scene_write_model(struct pel_scene_writer *writer, json_t *volume,
                            const struct pel_instance *instance);
+void pel_scene_write_style(struct pel_scene_writer *writer, json_t *volume,
+                           const struct pel_instance *instance);
 void pel_scene_write_clips(struct pel_scene_writer *writer, json_t *object, bool of_scene,
                            int count, const struct pel_clip *clips);
 void pel_scene_write_material(struct pel_scene_writer *writer, json_t *volume,

@@ -18,6 +18,7 @@
 #include "world/pairs.h"
 #include "world/step.h"
 #include "world/strength.h"
+#include "world/style.h"
 
 static float4 to_float4(const double v[3], double w) {
     return (float4){(float)v[0], (float)v[1], (float)v[2], (float)w};
@@ -321,10 +322,12 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;
         if (!pel_lighting_fill_part(&pattern, instance, scene->volumes[instance->volume]) ||
+            !pel_style_fill_part(&pattern, instance, tables[k].high - tables[k].low) ||
             !pel_model_fill_part(&pattern, scene, instance, &tables[k],
                                  count_slabs(layout, instance)))
             return pel_fail_in("volume '%s'", instance->name);
-        world->shaded |= pattern.shading != SHADING_NONE;
+        world->shaded |= pattern.shading != SHADING_NONE || pattern.styled;
+        world->styled |= pattern.styled || pattern.gradient != GRADIENT_CENTRAL;
         pattern.rank = (float)pel_mixing_rank(scene, instance);
         pel_clip_fill_part(world, &pattern, scene, instance, centre);
         // Only media are mixed.

@@ -21,7 +21,8 @@ struct pel_world {
     int models;         // MODELS_*
     int cut_count;      // of bytes.cuts, which end there
     bool table_linear;  // some table must be interpolated
-    bool shaded;        // some part is
+    bool shaded;        // some part needs normals
+    bool styled;        // other gradients than central differences, or opacity that follows them
     bool supersampling; // several rays a pixel, or one that does not go through its centre
     bool jitter;        // every ray has a phase of its own
     bool probe;         // one ray is to write down what it meets

@@ -67,6 +67,15 @@
 #define SHADING_BLINN_PHONG 1
 #define SHADING_PHONG 2
 
+// Of a part: how its gradient is found. The knob STYLE is 1 when some part has another than central
+// differences, or opacity that follows the gradient.
+#define GRADIENT_CENTRAL 0
+#define GRADIENT_SOBEL 1
+#define GRADIENT_ANALYTIC 2
+
+// Ramps that opacity follows with the gradient.
+#define GRADIENT_RAMPS 3
+
 // The gradient, in ranges of the table per voxel, at which a normal has half its squared length: so small a one
 // in floats has no direction to be trusted.
 #define SHADE_SOFTNESS 0x1p-16f

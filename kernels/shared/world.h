@@ -76,10 +76,15 @@ struct part {
     i32 medium;                 // which of the media that are mixed, or MEDIUM_NONE
     i32 cuts;                   // index of the first of its clips: planes, boxes, cut-away boxes
     i32 plane_count, box_count, hole_count;
-    i32 pad;
+    i32 gradient;               // one of GRADIENT_*
+    i32 styled;                 // 1: opacity follows the gradient, as the next two say
+    i32 ramp_count;             //
+    i32 pad[2];
+    float4 silhouette;          // base, strength and exponent; and the factor before all ramps
+    float4 ramps[GRADIENT_RAMPS]; // start, 1 / width, in ranges of the table per mm; rise of the factor
 };
 
-SHARED_ASSERT(sizeof(struct part) == 352, part_size);
+SHARED_ASSERT(sizeof(struct part) == 432, part_size);
 
 struct world {
     struct camera camera;
@@ -105,7 +110,7 @@ struct world {
     float4 cuts[WORLD_CUT_MAX]; // only as many as there are reach the device
 };
 
-SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 352 * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
+SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 432 * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
               world_size);
 
 #endif

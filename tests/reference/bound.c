@@ -21,6 +21,7 @@
 #include "reference/mix.h"
 #include "reference/path.h"
 #include "reference/shade.h"
+#include "reference/style.h"
 
 struct change {
     double extinction, colour;
@@ -50,13 +51,8 @@ static bool medium_at(struct reference_medium *medium, const struct spot *spot,
     if (!reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel))
         return false;
     *medium = reference_classify(body->instance, &body->table, &sample);
-    if (body->instance->material.shading == PEL_SHADING_NONE)
-        return true;
-    double normal[3];
-    reference_normal(normal, body, p_voxel, sample.value, NULL);
-    struct reference_shade shade =
-        reference_shade(spot->reference, body, &spot->path->ray, spot->t, normal);
-    reference_shade_apply(medium, &shade);
+    reference_style(medium, spot->reference, body, &spot->path->ray, spot->t, p_voxel,
+                    sample.value);
     return true;
 }
 
@@ -99,12 +95,17 @@ static double value_reach(const struct reference_body *body, double spread, doub
 static void widen_by_shade(struct change *change, const struct spot *spot,
                            const struct reference_sample *sample, const double p_voxel[3],
                            double reach_voxel, const struct reference_errors *errors) {
-    if (spot->body->instance->material.shading == PEL_SHADING_NONE)
-        return;
-    double normal[3], spread;
+    double normal[3], spread, factor_change;
     reference_normal(normal, spot->body, p_voxel, sample->value, &spread);
     double reach =
         value_reach(spot->body, spread, fabs(sample->value) + spread, reach_voxel, errors);
+    double factor = reference_style_factor(spot->body, &spot->path->ray, p_voxel, sample->value,
+                                           reach, &factor_change);
+    struct reference_medium plain =
+        reference_classify(spot->body->instance, &spot->body->table, sample);
+    change->extinction = change->extinction * factor + plain.extinction * factor_change;
+    if (spot->body->instance->material.shading == PEL_SHADING_NONE)
+        return;
     change->colour = change->colour * reference_shade_greatest(spot->reference, spot->body) +
                      reference_shade_change(spot->reference, spot->body, normal, reach);
 }

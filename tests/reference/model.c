@@ -11,7 +11,7 @@
 #include "reference/clip.h"
 #include "reference/mix.h"
 #include "reference/pair.h"
-#include "reference/shade.h"
+#include "reference/style.h"
 
 // What lies at one sample, in front of what comes after it in this order.
 enum rank { PROJECTIONS, SURFACES, MEDIA };
@@ -91,14 +91,8 @@ static bool sample_at(struct reference_sample *sample, double p_voxel[3],
 
 static void shade(struct reference_medium *medium, const struct gathering *gathering, int k,
                   double t, const double p_voxel[3], double value) {
-    const struct reference_body *body = &gathering->reference->bodies[k];
-    if (body->instance->material.shading == PEL_SHADING_NONE)
-        return;
-    double normal[3];
-    reference_normal(normal, body, p_voxel, value, NULL);
-    struct reference_shade light =
-        reference_shade(gathering->reference, body, &gathering->path->ray, t, normal);
-    reference_shade_apply(medium, &light);
+    reference_style(medium, gathering->reference, &gathering->reference->bodies[k],
+                    &gathering->path->ray, t, p_voxel, value);
 }
 
 // ---- Surfaces ----------------------------------------------------------------------------------

@@ -7,7 +7,7 @@
 #include "reference/mix.h"
 #include "reference/model.h"
 #include "reference/path.h"
-#include "reference/shade.h"
+#include "reference/style.h"
 #include "reference/supersample.h"
 
 // What body k has at t; false when it is absent.
@@ -23,12 +23,8 @@ static bool medium_at(struct reference_medium *medium, const struct reference *r
     medium->body = k;
     medium->priority = body->instance->priority;
     medium->step_mm = reference_sample_mm(reference, k);
-    if (body->instance->material.shading != PEL_SHADING_NONE && medium->extinction > 0) {
-        double normal[3];
-        reference_normal(normal, body, p_voxel, sample.value, NULL);
-        struct reference_shade shade = reference_shade(reference, body, &path->ray, t, normal);
-        reference_shade_apply(medium, &shade);
-    }
+    if (medium->extinction > 0)
+        reference_style(medium, reference, body, &path->ray, t, p_voxel, sample.value);
     return true;
 }
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/math.h"
+#include "reference/gradient.h"
 
 // The length of a gradient, in ranges of the table per voxel, where normals fade out.
 static const double softness = 0x1p-16;
@@ -43,21 +44,7 @@ static double voxel_spacing(const struct reference_body *body) {
 static void find_gradient(double gradient[3], const struct reference_body *body,
                           const double p_voxel[3], double value, double *spread) {
     double along[3];
-    *spread = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        double values[2];
-        for (int side = 0; side < 2; side++) {
-            double moved[3] = {p_voxel[0], p_voxel[1], p_voxel[2]};
-            moved[axis] += side == 0 ? -1 : 1;
-            struct reference_sample sample;
-            bool present =
-                reference_sample_volume(&sample, body->volume, body->instance->filter, moved);
-            values[side] = present ? sample.value : value;
-            if (present)
-                *spread = fmax(*spread, sample.spread);
-        }
-        along[axis] = (values[1] - values[0]) / 2;
-    }
+    reference_gradient(along, body, p_voxel, value, spread);
     double range = body->table.high - body->table.low;
     double scale = range > 0 ? voxel_spacing(body) / range : 0;
     // A gradient is a row: it goes the other way, by the transpose.

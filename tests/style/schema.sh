@@ -49,6 +49,7 @@ pairs = {
     "scene_read_clip.c:box_keys": (defs["box"], "box"),
     "scene_read_light.c:light_keys": (defs["light"], "light"),
     "scene_read_light.c:shading_keys": (defs["shading"]["anyOf"][1], "shading"),
+    "scene_read_style.c:silhouette_keys": (defs["silhouette"], "silhouette"),
     "scene_read_model.c:surface_keys": (defs["surface"]["anyOf"][1], "iso"),
     "transfer_file.c:known_keys": (own_transfer, "transfer"),
     "scene_read_settings.c:render_keys": (defs["render"], "render"),
@@ -108,7 +109,7 @@ def place(section, key, value):
     volume = {"file": "a"}
     holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"}, "raw": {"dims": [1, 1, 1]},
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
-               "render": {}, "stereo": {}, "wall": {}, "region": {"place": [0, 0, 1, 1]}, "output": {}, "light": {}, "shading": {}, "supersampling": {}, "iso": {"value": 1},
+               "render": {}, "stereo": {}, "wall": {}, "region": {"place": [0, 0, 1, 1]}, "output": {}, "light": {}, "shading": {}, "silhouette": {}, "supersampling": {}, "iso": {"value": 1},
                "clip": {}, "plane": {"normal": [0, 0, 1]}, "box": {"size": [1, 1, 1]},
                "bricks": {}, "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
     if section == "transform":
@@ -142,7 +143,7 @@ def place(section, key, value):
         return {"volumes": [volume], "clip": [inner]}
     elif section == "light":
         return {"volumes": [volume], "lights": [holder]}
-    elif section in ("raw", "transform", "transfer", "shading", "iso"):
+    elif section in ("raw", "transform", "transfer", "shading", "silhouette", "iso"):
         volume[section] = holder
     return {"volumes": [volume], **(inner if section in ("camera", "render", "stereo", "animation", "output") else {})}
 for _, section in pairs.values():
