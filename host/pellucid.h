@@ -452,6 +452,7 @@ struct pel_instance {
     double step;                   // of its samples, in its own finest voxels; 0 = the scene's
     double step_mm;                // the same in millimetres, instead of `step`; 0 = as `step` says
     enum pel_model model;          //
+    bool preintegration;           // of absorption: what lies between two samples counts
     int surface_count;             // of model iso; 0: one of the middle value, opaque
     struct pel_surface surfaces[PEL_SURFACE_MAX];
     double priority; // of PEL_MIX_PRIORITY: the greater one wins, of equals the first in the list
@@ -483,10 +484,19 @@ enum pel_skip {
     PEL_SKIP_BVH,      // from cluster to cluster of bricks, by a bounding volume hierarchy
 };
 
+// Whether only those bricks of 16^3 voxels are on the device in which something can be seen. They
+// are read through a table; the picture is the same.
+enum pel_pool_use {
+    PEL_POOL_AUTO, // where the volumes do not fit otherwise
+    PEL_POOL_OFF,
+    PEL_POOL_ON,
+};
+
 // The cubes of voxels in which PEL_SKIP_BVH looks for what is visible (Ganter & Manzke 2019).
 struct pel_brick_settings {
-    int size;   // voxels along a side: 8, 16, 32, 64 or 128; 0 = 16
+    int size;   // voxels along a side: 8, 16, 32, 64 or 128; 0 = 16; with a pool at least 16
     bool apart; // each active brick is a cluster of its own
+    enum pel_pool_use pool;
 };
 
 // Where the n x n rays of a pixel go through it. See docs/picture.md for the sources.
@@ -534,6 +544,7 @@ struct pel_render_settings {
     double step;            // in voxels of the finest visible volume; > 0
     double step_mm;         // the same in millimetres, instead of `step`; 0 = as `step` says
     enum pel_model model;   // of volumes that have none of their own
+    bool preintegration;    // of all volumes: see pel_instance
     enum pel_order order;   // back to front no ray ends early
     double emission_scale; // of model emission, per mm; 0 = 1 over the longest way through a volume
     double phase;          // of the first sample, in steps; 0..1
@@ -644,6 +655,12 @@ PEL_API bool pel_scene_move(struct pel_scene *scene, int instance, int to);
 // scene is then as before.
 PEL_API bool pel_scene_reload(struct pel_scene *scene, int volume);
 
+// Chooses steps, termination and supersampling for a quality of 0 (a draft) to 1 (the best there
+// is; 0.5 is near the defaults). Volumes get steps of their own, by their spacing and by the
+// greatest opacity of their transfer functions. docs/picture.md, "Quality", has the rule and the
+// errors.
+PEL_API void pel_scene_set_quality(struct pel_scene *scene, double quality);
+
 // The scene as JSON: what pel_scene_save writes to `path`, whose folder the files in it are
 // relative to. NULL gives it compact, with absolute paths, as for the text in a picture. Memory to
 // free(), or NULL on failure (MEMORY; ARGUMENT when a volume came from no file).
@@ -716,6 +733,7 @@ struct pel_image {
 struct pel_brick_statistics {
     int size;                                // voxels along a side; 0: there are none
     uint64_t total, active, clusters;        //
+    uint64_t resident;                       // of the pool, on the device; 0 without one
     double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
 };
 
@@ -736,11 +754,13 @@ struct pel_render_statistics {
     char device[128], driver[128];
     enum pel_reader reader;
     int lanes, work_group;
-    uint64_t samples;        // taken inside volumes, all rays together
-    uint64_t rays;           //
-    double refined;          // share of the pixels that got all their rays: 1 unless adaptive
-    uint64_t device_bytes;   // allocated on the device at the end of the frame
-    uint64_t uploaded_bytes; // sent to the device for this frame
+    uint64_t samples;            // taken inside volumes, all rays together
+    uint64_t samples_skipped;    // others, where skipping has found nothing to see
+    uint64_t samples_terminated; // and those behind the end of a ray that ended early
+    uint64_t rays;               //
+    double refined;              // share of the pixels that got all their rays: 1 unless adaptive
+    uint64_t device_bytes;       // allocated on the device at the end of the frame
+    uint64_t uploaded_bytes;     // sent to the device for this frame
     struct pel_kernel_info kernel;
     enum pel_skip skip;
     uint64_t skip_bytes; // of device_bytes, those for skipping

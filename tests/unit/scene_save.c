@@ -45,7 +45,7 @@ static const char *const rich[] = {
     "   'opacities': [[1, 0.25], [2, 0.5], [3, 1]], 'scale': 'percentile',"
     "   'opacity_unit': 3, 'interpolation': 'nearest', 'entries': 77}, 'density': 0.7, 'priority': "
     "2,"
-    "   'extent': 'point', 'filter': 'nearest', 'step': 0.3,"
+    "   'extent': 'point', 'filter': 'nearest', 'step': 0.3, 'preintegration': true,"
     "   'shading': {'model': 'phong', 'ambient': 0.2, 'diffuse': 0.3, 'specular': 0.4,"
     "   'shininess': 55, 'two_sided': false}},"
     "   {'generate': {'kind': 'head-pair', 'size': 8, 'spacing': 20, 'type': 'float32',"
@@ -53,8 +53,8 @@ static const char *const rich[] = {
     "'iso': [3.5, {'value': 4, 'colour': [0.1, 0.2, 0.3], 'opacity': 0.3}]}],"
     " 'render': {'size': [34, 22], 'mixing': 'over', 'step': 0.7, 'phase': 0.25,"
     "   'termination': 0.8, 'origin': 'bounds', 'skip': 'grid', 'bricks': {'size': 16, 'cluster': "
-    "false}, 'jitter': true, 'debug': 'spans', "
-    "'model': 'mip', 'order': 'back-to-front', 'emission_scale': 0.3,"
+    "false, 'pool': 'on'}, 'jitter': true, 'debug': 'spans', "
+    "'model': 'mip', 'order': 'back-to-front', 'emission_scale': 0.3, 'preintegration': true,"
     "   'supersampling': {'n': 2, 'pattern': 'n-rooks', 'filter': 'gaussian', 'seed': 3,"
     "   'adaptive': 0.1}},"
     " 'stereo': {'kind': 'matrix', 'separation': 5, 'convergence': 77.5, 'swap': true,"
@@ -153,17 +153,11 @@ static void test_round_trip(void **state) {
 // ---- Every key ---------------------------------------------------------------------------------
 
 // Keys that say what other keys say: what they mean is written by those.
-static const char *const other_words[] = {"comment",
-                                          "$schema",
-                                          "camera.view",
-                                          "camera.fit",
-                                          "volume.palette",
-                                          "volume.opacity_unit",
-                                          "transfer.preset",
-                                          "transfer.range",
-                                          "transfer.colors",
-                                          "transfer.scale",
-                                          NULL};
+static const char *const other_words[] = {
+    "comment",         "$schema",         "camera.view",
+    "camera.fit",      "volume.palette",  "volume.opacity_unit",
+    "render.quality",  "transfer.preset", "transfer.range",
+    "transfer.colors", "transfer.scale",  NULL};
 
 // Objects whose keys are ways to say one thing.
 static const char *const other_ways[] = {"transform", NULL};
