@@ -283,6 +283,12 @@ struct pel_bounds {
 PEL_API bool pel_camera_fit(struct pel_camera *camera, const char *view,
                             const struct pel_bounds *bounds, double aspect);
 
+// The camera whose picture is a part of another's: `place` is its left and top edge, width and
+// height, in shares of the whole, whose width / height is `aspect`. Rays through the same place of
+// both are the same, up to rounding.
+PEL_API struct pel_camera pel_camera_part(const struct pel_camera *whole, double aspect,
+                                          const double place[4]);
+
 // ---- Stereo ------------------------------------------------------------------------------------
 
 // How the pictures of two eyes become one. docs/stereo.md has the formulae and their sources.
@@ -438,6 +444,22 @@ struct pel_material {
 // VTK's and ours: ambient 0.1, diffuse 0.7, specular 0.2, shininess 10, two-sided.
 PEL_API struct pel_material pel_material_default(enum pel_shading shading);
 
+#define PEL_CLIP_MAX 8
+
+enum pel_clip_kind { PEL_CLIP_PLANE, PEL_CLIP_BOX };
+
+// What is kept of a volume, or of all: one side of a plane, or the inside or outside of a box
+// (docs/mixing.md, "Clipping"). Of several all must hold. Gradients are those of the whole volume.
+struct pel_clip {
+    enum pel_clip_kind kind;
+    bool outside;     // keep what is behind the plane, or cut the box's inside away
+    bool in_world;    // of a volume's: stays where it is when `transform` moves the volume
+    double point[3];  // of the plane, or the middle of the box; millimetres
+    double normal[3]; // of the plane, towards what is kept; any length but zero
+    double size[3];   // of the box
+    double xyzw[4];   // rotation of the box about its middle; all zero for none
+};
+
 // One volume as it stands in a scene. Several instances may show one volume.
 struct pel_instance {
     char name[64];
@@ -455,6 +477,8 @@ struct pel_instance {
     bool preintegration;           // of absorption: what lies between two samples counts
     int surface_count;             // of model iso; 0: one of the middle value, opaque
     struct pel_surface surfaces[PEL_SURFACE_MAX];
+    int clip_count;
+    struct pel_clip clips[PEL_CLIP_MAX];
     double priority; // of PEL_MIX_PRIORITY: the greater one wins, of equals the first in the list
 };
 
@@ -557,6 +581,21 @@ struct pel_render_settings {
     enum pel_debug debug; //
 };
 
+#define PEL_WALL_MAX 32
+
+// One window or monitor of a display wall.
+struct pel_wall_region {
+    double place[4]; // left and top edge, width and height, in shares of the whole picture
+    int monitor;     // which one it fills, counted from 0; -1: none, it is a window
+    char device[64]; // what renders it, as pel_renderer_options has it; "" = what renders the rest
+};
+
+// One picture over several windows or monitors; what lies between the regions is hidden by bezels.
+struct pel_wall {
+    int region_count; // 0: no wall
+    struct pel_wall_region regions[PEL_WALL_MAX];
+};
+
 struct pel_output_settings {
     char path[1024];    // "" when the scene names none
     int depth;          // of PNG: 8 or 16
@@ -594,8 +633,11 @@ struct pel_scene {
     struct pel_instance instances[PEL_VOLUME_MAX];
     int light_count; // 0: one white headlight
     struct pel_light lights[PEL_LIGHT_MAX];
+    int clip_count; // of all volumes, in the world
+    struct pel_clip clips[PEL_CLIP_MAX];
     struct pel_render_settings render;
     struct pel_stereo stereo;
+    struct pel_wall wall; // of the viewer; pictures are rendered whole
     struct pel_output_settings output;
     struct pel_timeline timeline;
     char *text; // owned; the scene as JSON after all overrides, as it goes into the picture
@@ -619,6 +661,20 @@ PEL_API void pel_scene_destroy(struct pel_scene *scene);
 // (ARGUMENT) when there is no animation or no such frame, and like pel_scene_load when a value
 // cannot be; the scene then stays as it was.
 PEL_API bool pel_scene_set_frame(struct pel_scene *scene, double frame);
+
+// A viewpoint and when the camera is there.
+struct pel_keyframe {
+    double time_s; // from the first frame
+    struct pel_camera camera;
+};
+
+// Makes recorded viewpoints, in the order of their times, the way of the scene's camera, in place
+// of what moved it before; none takes its motion away. Other tracks stay. What was changed in the
+// scene since it was loaded is now what its animation acts upon, and no longer lost in
+// pel_scene_set_frame. Fails (ARGUMENT) when times do not ascend or a volume came from no file; the
+// scene then stays as it was.
+PEL_API bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
+                                     int count, double fps);
 
 // An empty scene with every default, to be filled by a program. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_create(void);

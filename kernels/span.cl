@@ -6,6 +6,7 @@
 #define SPAN_CL
 
 #include "shared/probe.h"
+#include "clip.cl"
 #include "traverse/cursor.cl"
 
 #if SKIP != SKIP_NONE || POOL
@@ -52,10 +53,10 @@ struct crossing {
     int count;
     integer possible; // samples of each ray, were all of them taken
     integer behind;   // of these, those behind the end of a ray that ended early
-#if SHADING
+#if SHADING || CLIP
     struct ray ray;
 #endif
-#if SHADING || PROBE
+#if SHADING || PROBE || CLIP
     real t_first; // where sample 0 lies
 #endif
 #if PROBE
@@ -129,10 +130,10 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
             t_near = CHOOSE(t_near, span.near, nearer);
         }
     }
-#if SHADING
+#if SHADING || CLIP
     crossing->ray = *ray;
 #endif
-#if SHADING || PROBE
+#if SHADING || PROBE || CLIP
     crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
 #endif
 #if MODELS & MODELS_BACKWARD
@@ -147,7 +148,10 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
         __constant struct part *part = &world->parts[p];
         const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
-        const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+        struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+#if CLIP
+        clip_span(world, part, ray, &span);
+#endif
 #if MIXING == MIXING_ORDERED
         if (!world->origin_bounds && (p == 0 || part[-1].medium != part->medium))
             t_own = enter_instance(world, ray, p);

@@ -65,12 +65,14 @@ static const char *const rich[] = {
     "   'values': [0, 1], 'interpolation': 'smooth'}, {'key': "
     "'volumes.first.transfer.opacity_unit', 'values': [1, 2]},"
     "   {'key': 'render.step', 'values': [1, 2]}]},"
+    " 'wall': {'regions': [{'place': [0, 0, 0.5, 1], 'monitor': 1, 'device': 'gpu'}]},"
     " 'output': {'file': 'out/picture.png', 'depth': 16, 'alpha': 'premultiplied'}}",
     "{'volumes': [{'file': 'a.raw', 'raw': {'dims': [2, 3, 4], 'offset': 0}, 'time': 0,"
     "   'channel': 0, 'transfer': {'points': [[0, '#ffffff', 0], [1, '#102030', 0.5]]}, 'shading': "
     "true}],"
     " 'background': 'none', 'render': {'step_mm': 0.37},"
-    " 'stereo': {'kind': 'red-blue', 'separation': 0}, 'animation': {'duration': 2}, 'output': "
+    " 'stereo': {'kind': 'red-blue', 'separation': 0}, 'animation': {'duration': 2}, 'wall': "
+    "{'columns': 3, 'rows': 2, 'bezel': [0.04, 0.05]}, 'output': "
     "{'file': '-'}}",
 };
 
@@ -119,6 +121,7 @@ static void assert_same_scene(const struct pel_scene *a, const struct pel_scene 
     assert_memory_equal(a->lights, b->lights, sizeof a->lights);
     assert_memory_equal(&a->render, &b->render, sizeof a->render);
     assert_memory_equal(&a->stereo, &b->stereo, sizeof a->stereo);
+    assert_memory_equal(&a->wall, &b->wall, sizeof a->wall);
     assert_memory_equal(&a->timeline, &b->timeline, sizeof a->timeline);
     assert_int_equal(a->output.depth, b->output.depth);
     assert_int_equal(a->output.premultiplied, b->output.premultiplied);
@@ -157,7 +160,8 @@ static const char *const other_words[] = {
     "comment",         "$schema",         "camera.view",
     "camera.fit",      "volume.palette",  "volume.opacity_unit",
     "render.quality",  "transfer.preset", "transfer.range",
-    "transfer.colors", "transfer.scale",  NULL};
+    "transfer.colors", "transfer.scale",  "wall.columns",
+    "wall.rows",       "wall.bezel",      NULL};
 
 // Objects whose keys are ways to say one thing.
 static const char *const other_ways[] = {"transform", NULL};
