@@ -740,6 +740,30 @@ PEL_API bool pel_scene_bounds(const struct pel_scene *scene, struct pel_bounds *
 PEL_API bool pel_stereo_cameras(const struct pel_scene *scene, struct pel_camera cameras[2],
                                 struct pel_stereo *used);
 
+// Bricks of one volume, or of all together. The times are those of the last change of what is
+// visible.
+struct pel_brick_statistics {
+    int size;                                // voxels along a side; 0: there are none
+    uint64_t total, active, clusters;        //
+    uint64_t resident;                       // of the pool, on the device; 0 without one
+    double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
+};
+
+// How the bricks of a volume cluster (Ganter & Manzke 2019, table 1).
+struct pel_brick_report {
+    struct pel_brick_statistics bricks;
+    // Clusters that a ray of the scene's camera crosses, the mean over 64 x 64 rays that cover the
+    // picture, of those that cross any; and the same with every brick a cluster of its own.
+    double depth, depth_apart;
+};
+
+#define PEL_BRICK_SIZES 5 // of 8, 16, 32, 64 and 128 voxels
+
+// Measures an instance with its transfer function, for every size of bricks, on the host. False:
+// ARGUMENT, MEMORY.
+PEL_API bool pel_scene_measure_bricks(const struct pel_scene *scene, int instance,
+                                      struct pel_brick_report reports[PEL_BRICK_SIZES]);
+
 // ---- Devices -----------------------------------------------------------------------------------
 
 enum pel_reader { PEL_READER_AUTO, PEL_READER_BUFFER, PEL_READER_IMAGE };
@@ -783,14 +807,6 @@ struct pel_renderer_options {
 struct pel_image {
     int width, height;
     float *rgba; // owned; premultiplied; rows from the top
-};
-
-// Bricks, all volumes together. The times are those of the last change of what is visible.
-struct pel_brick_statistics {
-    int size;                                // voxels along a side; 0: there are none
-    uint64_t total, active, clusters;        //
-    uint64_t resident;                       // of the pool, on the device; 0 without one
-    double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
 };
 
 // The numbers of a debug view over the picture's pixels.
