@@ -25,7 +25,7 @@ check() {
     python3 -c '
 import json, sys
 volume = json.load(open("scene.json"))["volumes"][0]
-points = len(volume["transfer"]["opacity"]) if isinstance(volume.get("transfer"), dict) else 0
+points = len(volume["transfer"]["opacities"]) if isinstance(volume.get("transfer"), dict) else 0
 if not eval(sys.argv[1]):
     sys.exit("not so: %s: %s" % (sys.argv[1], volume))' "$1" 2>trouble || complain "$(tail -1 trouble)"
 }
@@ -33,7 +33,7 @@ if not eval(sys.argv[1]):
 open ct.nrrd --size 800x600 || exit 1
 sleep 2
 check '"transform" not in volume'
-before=$(python3 -c 'import json; print(len(json.load(open("scene.json"))["volumes"][0]["transfer"]["opacity"]))')
+before=$(python3 -c 'import json; print(len(json.load(open("scene.json"))["volumes"][0]["transfer"]["opacities"]))')
 # The plot lies under the list, its choices and what is known of the file.
 drag 40 330 70 340
 check "points == $before + 1"
