@@ -53,7 +53,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         if (any_lane(alive & MASK(i >= active.until)))
             begin_span(&active, crossing, i, alive);
 #endif
-        mask seen = (mask)(0);
+        bool seen = false;
         struct mixture mixture = mix_begin();
         for (int a = 0; a < COUNTED(active.count); a++) {
             const int c = LISTED(active.list, a);
@@ -73,8 +73,8 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #if MODELS
             if (part->model != MODEL_ABSORPTION) {
                 const struct spot spot = {part, cursor, c, i, present};
-                seen |= gather(world, table, cells, MEMORY_ARGUMENTS, &gathered, crossing, &light,
-                               &sample, spot);
+                seen |= any_lane(gather(world, table, cells, MEMORY_ARGUMENTS, &gathered, crossing,
+                                        &light, &sample, spot));
                 continue;
             }
 #endif
@@ -88,7 +88,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                 cursor->next = cursor_leap(part, cells, cursor, i + 1);
                 continue;
             }
-            seen |= visible;
+            seen = true;
 
             real r, g, b;
             entry_colour(table, &entry, &r, &g, &b);
@@ -112,7 +112,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         }
 
         i -= alive; // one on, where the ray still runs
-        if (any_lane(seen)) {
+        if (seen) {
             mix_end(&mixture, layer);
 #if MODELS
             gathered_join(&gathered, &light);

@@ -40,6 +40,9 @@
 #define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
 #define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
 
+// Whether the rays' first sample follows from the one part alone, and needs no look at all parts beforehand.
+#define ORIGIN_ALONE (CAPACITY == 1 && !(MODELS & MODELS_BACKWARD))
+
 // The parts that some lane of the packet crosses, with their cursors.
 struct crossing {
     struct cursor cursors[CAPACITY];
@@ -84,10 +87,10 @@ INLINE void cursor_mirror(struct cursor *cursor, integer mirror) {
 // Finds the parts that the packet crosses and where each ray's samples begin.
 INLINE void find_crossing(__constant struct world *world, __global const uchar *cells,
                           const struct ray *ray, struct crossing *crossing) {
-    const struct span bounds = box_span(ray, world->bounds_low, world->bounds_high);
-    real t_near = bounds.near;
-    if (!world->origin_bounds) {
-        t_near = (real)(FLT_MAX);
+    real t_near = (real)(FLT_MAX);
+    if (world->origin_bounds) {
+        t_near = box_span(ray, world->bounds_low, world->bounds_high).near;
+    } else if (!ORIGIN_ALONE) {
         for (int p = 0; p < world->part_count; p++) {
             const struct ray ray_voxel = transform_ray(world->parts[p].voxel_from_world, ray);
             const struct span span =
@@ -99,10 +102,8 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
 #if SHADING
     crossing->ray = *ray;
 #endif
-#if SHADING || PROBE
-    crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
-#endif
 #if MODELS & MODELS_BACKWARD
+    const struct span bounds = box_span(ray, world->bounds_low, world->bounds_high);
     const float samples_per_mm = 1.0f / world->step_mm;
     crossing->mirror = sample_at(bounds.far, t_near, RAY_PHASE(world, ray), samples_per_mm) + 1;
 #endif
@@ -111,6 +112,8 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
         __constant struct part *part = &world->parts[p];
         const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
         const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+        if (ORIGIN_ALONE && !world->origin_bounds)
+            t_near = span.near;
         struct cursor cursor = cursor_begin(world, part, &ray_voxel, &span, t_near);
 #if MODELS & MODELS_BACKWARD
         cursor_mirror(&cursor, crossing->mirror);
@@ -124,6 +127,9 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
             crossing->count++;
         }
     }
+#if SHADING || PROBE
+    crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
+#endif
 }
 
 // The parts that are active in the present span of each lane, as indices into the crossing. It lasts until some
