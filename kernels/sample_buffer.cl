@@ -5,10 +5,17 @@
 #ifndef SAMPLE_BUFFER_CL
 #define SAMPLE_BUFFER_CL
 
+#if POOL
+#define PAGES_PARAMETER , __global const int *pages
+#define PAGES_ARGUMENT , pages
+#else
+#define PAGES_PARAMETER
+#define PAGES_ARGUMENT
+#endif
 #define MEMORY_PARAMETERS                                                                          \
     __global const uchar *buffer0, __global const uchar *buffer1, __global const uchar *buffer2,   \
-        __global const uchar *buffer3
-#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3
+        __global const uchar *buffer3 PAGES_PARAMETER
+#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 PAGES_ARGUMENT
 
 // The eight voxels around a position: the index of the first, and the weights along the axes.
 struct cell {
@@ -16,12 +23,18 @@ struct cell {
     real x, y, z;
 };
 
-// The index of a voxel, from the part's first, with the next ones along all axes in the same brick. A table of bricks
-// that are there would be looked up here, with the brick's number.
-INLINE integer voxel_index(__constant struct part *part, integer x, integer y, integer z) {
+#define LOAD_PAGE(at) pages[at]
+
+// The index of a voxel, from the part's first, with the next ones along all axes in the same brick.
+INLINE integer voxel_index(__constant struct part *part, integer x, integer y,
+                           integer z PAGES_PARAMETER) {
     const integer inside = BRICK_SIDE - 1;
-    const integer brick = (z >> BRICK_BITS) * part->brick_slice +
-                          (y >> BRICK_BITS) * part->brick_row + (x >> BRICK_BITS);
+    integer brick = (z >> BRICK_BITS) * part->brick_slice +
+                    (y >> BRICK_BITS) * part->brick_row + (x >> BRICK_BITS);
+#if POOL
+    brick += (int)part->ranges;
+    brick = GATHER(int, LOAD_PAGE, brick);
+#endif
     return brick * BRICK_VOXELS + (z & inside) * BRICK_SLICE + (y & inside) * BRICK_ROW +
            (x & inside) + BRICK_LEAD;
 }
@@ -174,7 +187,7 @@ INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part,
     // Positions are positive, so truncation is floor.
     const integer ix = TO_INTEGER(nearest ? x + 0.5f : x), iy = TO_INTEGER(nearest ? y + 0.5f : y),
                   iz = TO_INTEGER(nearest ? z + 0.5f : z);
-    const struct cell cell = {.offset = voxel_index(part, ix, iy, iz),
+    const struct cell cell = {.offset = voxel_index(part, ix, iy, iz PAGES_ARGUMENT),
                               .x = x - TO_REAL(ix),
                               .y = y - TO_REAL(iy),
                               .z = z - TO_REAL(iz)};

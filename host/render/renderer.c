@@ -24,6 +24,7 @@
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
+#include "world/model.h"
 
 // A batch of tiles should take about this long unless the caller says otherwise.
 static const double batch_default_ms = 150;
@@ -148,7 +149,8 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
     enum { FIRST_BATCH = 64 };
     double start = now_ms(), mark = start;
     double batch_ms = options && options->batch_ms > 0 ? options->batch_ms : batch_default_ms;
-    double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms : FIRST_BATCH;
+    // The frame before may have had cheaper tiles, so the first batch only looks how these are.
+    double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms / 4 : FIRST_BATCH;
     for (size_t tile = 0; tile < extent->tiles;) {
         size_t left = extent->tiles - tile;
         size_t count = batch < 1 ? 1 : batch < (double)left ? (size_t)batch : left;
@@ -246,6 +248,8 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     struct pel_variant variant =
         pel_variant_choose(world, layout->reader, statistics->skip, lanes,
                            pel_device_describe(device)->max_constant_bytes);
+    if (renderer->options.work_group_rows)
+        variant.group_rows = renderer->options.work_group_rows;
     struct pel_kernel *kernel = pel_kernel_cache_find(&renderer->kernels, device, &variant);
     if (!kernel)
         return NULL;
@@ -266,18 +270,20 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
                      packets * sizeof(u32), device, "sample counts"))
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
+    struct pel_layout_limits limits =
+        pel_residency_limits(device, renderer->options.max_allocation_bytes);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, kernel, statistics->skip,
-                              &scene->render.bricks) ||
+                              &renderer->residency, scene, &limits, kernel, statistics->skip) ||
         !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);
-    if (statistics->skip != PEL_SKIP_NONE) {
+    if (statistics->skip != PEL_SKIP_NONE || world->pool) {
         statistics->skip_bytes = pel_occupancy_bytes(&renderer->occupancy) +
                                  pel_buffer_bytes(renderer->residency.ranges);
         statistics->bricks = renderer->occupancy.hierarchy.statistics;
     }
     statistics->work_group = (int)extent->group;
+    statistics->kernel = pel_kernel_describe(kernel);
     return kernel;
 }
 
@@ -374,6 +380,8 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout->reader;
     statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
+    if (pel_model_skips_nothing(scene))
+        statistics->skip = PEL_SKIP_NONE;
     statistics->prepare_ms = lap_ms(&mark);
     return true;
 }
@@ -454,15 +462,8 @@ struct pel_volume *pel_renderer_bake(struct pel_renderer *renderer, const char *
 
 struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *options) {
     struct pel_renderer_options chosen = options ? *options : (struct pel_renderer_options){0};
-    int lanes = chosen.lanes, group = chosen.work_group;
-    if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16) {
-        pel_fail(PEL_ERROR_ARGUMENT, "%d lanes; there are kernels for 1, 4, 8 and 16", lanes);
+    if (!pel_settings_check_options(&chosen))
         return NULL;
-    }
-    if (group < 0 || (group & (group - 1)) != 0) {
-        pel_fail(PEL_ERROR_ARGUMENT, "work-group of %d, must be a power of two", group);
-        return NULL;
-    }
     struct pel_renderer *renderer = pel_allocate(1, sizeof *renderer);
     if (!renderer)
         return NULL;
