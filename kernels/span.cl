@@ -54,6 +54,8 @@ struct crossing {
     struct cursor cursors[CAPACITY];
     int parts[CAPACITY];
     int count;
+    integer possible; // samples of each ray, were all of them taken
+    integer behind;   // of these, those behind the end of a ray that ended early
 #if SHADING
     struct ray ray;
 #endif
@@ -140,6 +142,7 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     crossing->mirror = sample_at(bounds.far, t_near, RAY_PHASE(world, ray), samples_per_mm) + 1;
 #endif
     crossing->count = 0;
+    crossing->possible = crossing->behind = (integer)(0);
 #if MIXING == MIXING_ORDERED
     real t_own = t_near;
 #endif
@@ -161,6 +164,8 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
 #if MODELS & MODELS_BACKWARD
         cursor_mirror(&cursor, crossing->mirror);
 #endif
+        crossing->possible += CHOOSE((integer)(0), cursor.end - cursor.first,
+                                     MASK(cursor.first < cursor.end));
         if (any_lane(MASK(cursor.first < cursor.end)))
             cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
         if (any_lane(MASK(cursor.next < cursor.end))) {

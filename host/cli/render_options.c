@@ -15,6 +15,8 @@ enum {
     KEY_STEP,
     KEY_STEP_MM,
     KEY_MODEL,
+    KEY_QUALITY,
+    KEY_PREINTEGRATION,
     KEY_ORDER,
     KEY_FILTER,
     KEY_TERMINATION,
@@ -99,6 +101,10 @@ static const struct argp_option argp_options[] = {
      "How overlapping volumes share a sample: sum, over, ordered, max, priority, union, "
      "intersection or difference",
      0},
+    {"quality", KEY_QUALITY, "0..1|draft|normal|high|best", 0,
+     "Choose steps, termination and supersampling together", 0},
+    {"preintegration", KEY_PREINTEGRATION, NULL, 0,
+     "Let what lies between two samples count, so that thin shells show at long steps", 0},
     {"model", KEY_MODEL, "absorption|emission|mip|minip|average|iso|thesis", 0,
      "How light is gathered along a ray, in volumes that say nothing else; thesis is that of a "
      "2009 "
@@ -271,6 +277,16 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_MODEL:
         overrides_add_text(&options->overrides, "render.model", argument);
+        break;
+    case KEY_QUALITY:
+        overrides_add(&options->overrides, "render.step", "null");
+        overrides_add(&options->overrides, "render.step_mm", "null");
+        overrides_add(&options->overrides, "render.termination", "null");
+        overrides_add(&options->overrides, "render.supersampling", "null");
+        overrides_add(&options->overrides, "render.quality", argument);
+        break;
+    case KEY_PREINTEGRATION:
+        overrides_add(&options->overrides, "render.preintegration", "true");
         break;
     case KEY_ORDER:
         overrides_add_text(&options->overrides, "render.order", argument);

@@ -216,14 +216,21 @@ static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
     return pel_device_finish(renderer->device);
 }
 
-static uint64_t count_samples(struct pel_renderer *renderer, size_t packets) {
-    uint32_t *counts = pel_allocate(packets, sizeof *counts);
-    uint64_t sum = 0;
-    if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts))
-        for (size_t i = 0; i < packets; i++)
-            sum += counts[i];
+// Adds up what the packets have counted.
+static void count_samples(struct pel_renderer *renderer, size_t packets,
+                          struct pel_render_statistics *statistics) {
+    uint32_t(*counts)[SAMPLE_COUNTS] = pel_allocate(packets, sizeof *counts);
+    uint64_t possible = 0;
+    if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts)) {
+        for (size_t i = 0; i < packets; i++) {
+            statistics->samples += counts[i][SAMPLES_TAKEN];
+            statistics->samples_terminated += counts[i][SAMPLES_BEHIND];
+            possible += counts[i][SAMPLES_POSSIBLE];
+        }
+        statistics->samples_skipped =
+            possible - statistics->samples - statistics->samples_terminated;
+    }
     free(counts);
-    return sum;
 }
 
 // The work-group that the user, the device or the kernel allows: a power of two.
@@ -267,7 +274,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         (world->supersampling &&
          !pel_resolve_prepare(&renderer->resolve, device, kernel, pixels)) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
-                     packets * sizeof(u32), device, "sample counts"))
+                     packets * SAMPLE_COUNTS * sizeof(u32), device, "sample counts"))
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     struct pel_layout_limits limits =
@@ -341,7 +348,7 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
         pel_image_destroy(image);
         return NULL;
     }
-    statistics->samples = count_samples(renderer, extent->tiles * extent->packets_per_tile);
+    count_samples(renderer, extent->tiles * extent->packets_per_tile, statistics);
     statistics->download_ms = lap_ms(&mark);
     return image;
 }

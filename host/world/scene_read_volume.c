@@ -13,9 +13,10 @@
 #include "world/scene_write.h"
 
 static const char *const volume_keys[] = {
-    "comment", "file",      "generate", "raw",     "time",   "channel",  "name",    "visible",
-    "spacing", "transform", "transfer", "density", "extent", "filter",   "palette", "opacity_unit",
-    "shading", "step",      "step_mm",  "model",   "iso",    "priority", NULL};
+    "comment", "file",    "generate", "raw",          "time",           "channel",
+    "name",    "visible", "spacing",  "transform",    "transfer",       "density",
+    "extent",  "filter",  "palette",  "opacity_unit", "shading",        "step",
+    "step_mm", "model",   "iso",      "priority",     "preintegration", NULL};
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};

@@ -181,6 +181,7 @@ static json_t *write_scene(const struct pel_scene *scene, const char *folder) {
         pel_scene_write_volumes(&writer, root);
         pel_scene_write_settings(&writer, root);
         pel_scene_write_stereo(&writer, root);
+        pel_scene_write_wall(&writer, root);
         pel_scene_write_animation(&writer, root);
         if (writer.failed) {
             json_decref(root);

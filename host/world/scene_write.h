@@ -46,6 +46,7 @@ void pel_write_colour(struct pel_scene_writer *writer, json_t *object, const cha
 void pel_scene_write_settings(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_camera(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_lights(struct pel_scene_writer *writer, json_t *root);
+void pel_scene_write_wall(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_stereo(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_volumes(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_animation(struct pel_scene_writer *writer, json_t *root); // after all others

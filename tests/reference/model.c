@@ -9,6 +9,7 @@
 
 #include "base/math.h"
 #include "reference/mix.h"
+#include "reference/pair.h"
 #include "reference/shade.h"
 
 // What lies at one sample, in front of what comes after it in this order.
@@ -236,7 +237,10 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
         if (present && model == PEL_MODEL_THESIS)
             add_thesis(layer, gathering, k, &sample);
         if (present && model == PEL_MODEL_ABSORPTION) {
-            media[count] = reference_classify(body->instance, &body->table, &sample);
+            double before = progress->known ? progress->value : sample.value;
+            media[count] = body->pairs
+                               ? reference_pair(body, before, sample.value, reference->step_mm)
+                               : reference_classify(body->instance, &body->table, &sample);
             media[count].body = total - 1;
             media[count].priority = body->instance->priority;
             media[count].step_mm = reference->step_mm;
@@ -255,7 +259,7 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
 
 bool reference_is_plain(const struct reference *reference) {
     for (int k = 0; k < reference->body_count; k++)
-        if (model_of(reference, k) != PEL_MODEL_ABSORPTION)
+        if (model_of(reference, k) != PEL_MODEL_ABSORPTION || reference->bodies[k].pairs)
             return false;
     return true;
 }

@@ -52,6 +52,8 @@ pairs = {
     "scene_read_settings.c:brick_keys": (defs["bricks"], "bricks"),
     "scene_read_settings.c:supersampling_keys": (defs["supersampling"], "supersampling"),
     "scene_read_settings.c:output_keys": (defs["output"], "output"),
+    "scene_read_wall.c:wall_keys": (defs["wall"], "wall"),
+    "scene_read_wall.c:region_keys": (defs["region"], "region"),
     "scene_read_stereo.c:stereo_keys": (defs["stereo"], "stereo"),
     "scene_read_animation.c:animation_keys": (defs["animation"], "animation"),
     "scene_read_animation.c:track_keys": (defs["track"], "track"),
@@ -103,7 +105,7 @@ def place(section, key, value):
     volume = {"file": "a"}
     holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"}, "raw": {"dims": [1, 1, 1]},
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
-               "render": {}, "stereo": {}, "output": {}, "light": {}, "shading": {}, "supersampling": {}, "iso": {"value": 1},
+               "render": {}, "stereo": {}, "wall": {}, "region": {"place": [0, 0, 1, 1]}, "output": {}, "light": {}, "shading": {}, "supersampling": {}, "iso": {"value": 1},
                "bricks": {}, "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
     if section == "transform":
         holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
