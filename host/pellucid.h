@@ -444,6 +444,22 @@ struct pel_material {
 // VTK's and ours: ambient 0.1, diffuse 0.7, specular 0.2, shininess 10, two-sided.
 PEL_API struct pel_material pel_material_default(enum pel_shading shading);
 
+#define PEL_CLIP_MAX 8
+
+enum pel_clip_kind { PEL_CLIP_PLANE, PEL_CLIP_BOX };
+
+// What is kept of a volume, or of all: one side of a plane, or the inside or outside of a box
+// (docs/mixing.md, "Clipping"). Of several all must hold. Gradients are those of the whole volume.
+struct pel_clip {
+    enum pel_clip_kind kind;
+    bool outside;     // keep what is behind the plane, or cut the box's inside away
+    bool in_world;    // of a volume's: stays where it is when `transform` moves the volume
+    double point[3];  // of the plane, or the middle of the box; millimetres
+    double normal[3]; // of the plane, towards what is kept; any length but zero
+    double size[3];   // of the box
+    double xyzw[4];   // rotation of the box about its middle; all zero for none
+};
+
 // One volume as it stands in a scene. Several instances may show one volume.
 struct pel_instance {
     char name[64];
@@ -461,6 +477,8 @@ struct pel_instance {
     bool preintegration;           // of absorption: what lies between two samples counts
     int surface_count;             // of model iso; 0: one of the middle value, opaque
     struct pel_surface surfaces[PEL_SURFACE_MAX];
+    int clip_count;
+    struct pel_clip clips[PEL_CLIP_MAX];
     double priority; // of PEL_MIX_PRIORITY: the greater one wins, of equals the first in the list
 };
 
@@ -615,6 +633,8 @@ struct pel_scene {
     struct pel_instance instances[PEL_VOLUME_MAX];
     int light_count; // 0: one white headlight
     struct pel_light lights[PEL_LIGHT_MAX];
+    int clip_count; // of all volumes, in the world
+    struct pel_clip clips[PEL_CLIP_MAX];
     struct pel_render_settings render;
     struct pel_stereo stereo;
     struct pel_wall wall; // of the viewer; pictures are rendered whole
@@ -641,6 +661,20 @@ PEL_API void pel_scene_destroy(struct pel_scene *scene);
 // (ARGUMENT) when there is no animation or no such frame, and like pel_scene_load when a value
 // cannot be; the scene then stays as it was.
 PEL_API bool pel_scene_set_frame(struct pel_scene *scene, double frame);
+
+// A viewpoint and when the camera is there.
+struct pel_keyframe {
+    double time_s; // from the first frame
+    struct pel_camera camera;
+};
+
+// Makes recorded viewpoints, in the order of their times, the way of the scene's camera, in place
+// of what moved it before; none takes its motion away. Other tracks stay. What was changed in the
+// scene since it was loaded is now what its animation acts upon, and no longer lost in
+// pel_scene_set_frame. Fails (ARGUMENT) when times do not ascend or a volume came from no file; the
+// scene then stays as it was.
+PEL_API bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
+                                     int count, double fps);
 
 // An empty scene with every default, to be filled by a program. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_create(void);
@@ -706,6 +740,30 @@ PEL_API bool pel_scene_bounds(const struct pel_scene *scene, struct pel_bounds *
 PEL_API bool pel_stereo_cameras(const struct pel_scene *scene, struct pel_camera cameras[2],
                                 struct pel_stereo *used);
 
+// Bricks of one volume, or of all together. The times are those of the last change of what is
+// visible.
+struct pel_brick_statistics {
+    int size;                                // voxels along a side; 0: there are none
+    uint64_t total, active, clusters;        //
+    uint64_t resident;                       // of the pool, on the device; 0 without one
+    double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
+};
+
+// How the bricks of a volume cluster (Ganter & Manzke 2019, table 1).
+struct pel_brick_report {
+    struct pel_brick_statistics bricks;
+    // Clusters that a ray of the scene's camera crosses, the mean over 64 x 64 rays that cover the
+    // picture, of those that cross any; and the same with every brick a cluster of its own.
+    double depth, depth_apart;
+};
+
+#define PEL_BRICK_SIZES 5 // of 8, 16, 32, 64 and 128 voxels
+
+// Measures an instance with its transfer function, for every size of bricks, on the host. False:
+// ARGUMENT, MEMORY.
+PEL_API bool pel_scene_measure_bricks(const struct pel_scene *scene, int instance,
+                                      struct pel_brick_report reports[PEL_BRICK_SIZES]);
+
 // ---- Devices -----------------------------------------------------------------------------------
 
 enum pel_reader { PEL_READER_AUTO, PEL_READER_BUFFER, PEL_READER_IMAGE };
@@ -749,14 +807,6 @@ struct pel_renderer_options {
 struct pel_image {
     int width, height;
     float *rgba; // owned; premultiplied; rows from the top
-};
-
-// Bricks, all volumes together. The times are those of the last change of what is visible.
-struct pel_brick_statistics {
-    int size;                                // voxels along a side; 0: there are none
-    uint64_t total, active, clusters;        //
-    uint64_t resident;                       // of the pool, on the device; 0 without one
-    double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
 };
 
 // The numbers of a debug view over the picture's pixels.

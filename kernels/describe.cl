@@ -76,6 +76,10 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, number);
     *out++ = OFFSET(struct part, rank);
     *out++ = OFFSET(struct part, medium);
+    *out++ = OFFSET(struct part, cuts);
+    *out++ = OFFSET(struct part, plane_count);
+    *out++ = OFFSET(struct part, box_count);
+    *out++ = OFFSET(struct part, hole_count);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);
@@ -99,5 +103,6 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, medium_count);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
+    *out++ = OFFSET(struct world, cuts);
     describe_recipe(out);
 }

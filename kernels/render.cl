@@ -94,11 +94,20 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             if (!any_lane(present))
                 continue;
 #endif
-            *samples -= present;
             const real t = TO_REAL(cursor_clamp(cursor, i));
 #if MIXING == MIXING_ORDERED
             cursor->next -= present;
 #endif
+#if CLIP
+            if (part->hole_count > 0) {
+                const real number = SAMPLE_NUMBER(crossing, c, t);
+                present &= clip_keeps(world, part, &crossing->ray,
+                                      crossing->t_first + number * world->step_mm);
+                if (!any_lane(present))
+                    continue;
+            }
+#endif
+            *samples -= present;
             const real x = cursor->ox + t * cursor->dx, y = cursor->oy + t * cursor->dy,
                        z = cursor->oz + t * cursor->dz;
             const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);

@@ -6,6 +6,7 @@
 #define SPAN_CL
 
 #include "shared/probe.h"
+#include "clip.cl"
 #include "traverse/cursor.cl"
 
 #if SKIP != SKIP_NONE || POOL
@@ -45,10 +46,6 @@
 #define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
 #define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
 
-// Whether the rays' first sample follows from the one part alone, and needs no look at all parts beforehand.
-#define ORIGIN_ALONE                                                                               \
-    (CAPACITY == 1 && MIXING != MIXING_ORDERED && !(MODELS & MODELS_BACKWARD))
-
 // The parts that some lane of the packet crosses, with their cursors.
 struct crossing {
     struct cursor cursors[CAPACITY];
@@ -56,10 +53,10 @@ struct crossing {
     int count;
     integer possible; // samples of each ray, were all of them taken
     integer behind;   // of these, those behind the end of a ray that ended early
-#if SHADING
+#if SHADING || CLIP
     struct ray ray;
 #endif
-#if SHADING || PROBE
+#if SHADING || PROBE || CLIP
     real t_first; // where sample 0 lies
 #endif
 #if PROBE
@@ -121,10 +118,10 @@ INLINE real enter_instance(__constant struct world *world, const struct ray *ray
 // Finds the parts that the packet crosses and where each ray's samples begin.
 INLINE void find_crossing(__constant struct world *world, __global const uchar *cells,
                           const struct ray *ray, struct crossing *crossing) {
-    real t_near = (real)(FLT_MAX);
-    if (world->origin_bounds) {
-        t_near = box_span(ray, world->bounds_low, world->bounds_high).near;
-    } else if (!ORIGIN_ALONE) {
+    const struct span bounds = box_span(ray, world->bounds_low, world->bounds_high);
+    real t_near = bounds.near;
+    if (!world->origin_bounds) {
+        t_near = (real)(FLT_MAX);
         for (int p = 0; p < world->part_count; p++) {
             const struct ray ray_voxel = transform_ray(world->parts[p].voxel_from_world, ray);
             const struct span span =
@@ -133,11 +130,13 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
             t_near = CHOOSE(t_near, span.near, nearer);
         }
     }
-#if SHADING
+#if SHADING || CLIP
     crossing->ray = *ray;
 #endif
+#if SHADING || PROBE || CLIP
+    crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
+#endif
 #if MODELS & MODELS_BACKWARD
-    const struct span bounds = box_span(ray, world->bounds_low, world->bounds_high);
     const float samples_per_mm = 1.0f / world->step_mm;
     crossing->mirror = sample_at(bounds.far, t_near, RAY_PHASE(world, ray), samples_per_mm) + 1;
 #endif
@@ -149,9 +148,10 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
         __constant struct part *part = &world->parts[p];
         const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
-        const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
-        if (ORIGIN_ALONE && !world->origin_bounds)
-            t_near = span.near;
+        struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+#if CLIP
+        clip_span(world, part, ray, &span);
+#endif
 #if MIXING == MIXING_ORDERED
         if (!world->origin_bounds && (p == 0 || part[-1].medium != part->medium))
             t_own = enter_instance(world, ray, p);
@@ -181,9 +181,6 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
             crossing->count++;
         }
     }
-#if SHADING || PROBE
-    crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
-#endif
 }
 
 // The parts that are active in the present span of each lane, as indices into the crossing. It lasts until some

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/clip_option.h"
 #include "cli/options.h"
 #include "cli/probe.h"
 
@@ -12,6 +13,7 @@ enum {
     KEY_SIZE = CLI_KEY_COMMAND,
     KEY_CAMERA,
     KEY_MIX,
+    KEY_CLIP,
     KEY_STEP,
     KEY_STEP_MM,
     KEY_MODEL,
@@ -95,6 +97,10 @@ static const struct argp_option argp_options[] = {
      "Light them by the gradient of their values; or not; or with keys of the scene's shading, "
      "such "
      "as model=phong,shininess=40",
+     0},
+    {"clip", KEY_CLIP, "SPEC", 0,
+     "Keep one side of a plane, such as 'x<10' or 'z>-5.5' (world millimetres); the inside of a "
+     "box, box=X0:X1,Y0:Y1,Z0:Z1, or its outside, cut=...; may be repeated",
      0},
     {0, 0, NULL, 0, "Rendering:", 4},
     {"mix", KEY_MIX, "KIND", 0,
@@ -267,6 +273,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_CAMERA:
         good = add_camera(options, argument);
+        break;
+    case KEY_CLIP:
+        good = clip_option_add(&options->overrides, &options->clip_count, argument);
         break;
     case KEY_MIX:
         overrides_add_text(&options->overrides, "render.mixing", argument);

@@ -266,7 +266,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     size_t packets = (extent->tiles + extent->tiles_per_group) * extent->packets_per_tile;
     if (!pel_residency_update(&renderer->residency, scene, layout) ||
-        !pel_mirror_update(&renderer->world, device, &world->bytes, sizeof world->bytes,
+        !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
                            sizeof world->bytes.camera, "the scene", NULL) ||
         !pel_mirror_update(&renderer->tables, device, world->tables,
                            world->table_words * sizeof *world->tables, 0, "transfer functions",

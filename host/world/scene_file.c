@@ -17,9 +17,9 @@
 // Scenes are written by people.
 enum { SCENE_BYTES_MAX = 16 << 20 };
 
-static const char *const scene_keys[] = {"$schema",   "comment", "camera", "background",
-                                         "lights",    "volumes", "render", "stereo",
-                                         "animation", "output",  "wall",   NULL};
+static const char *const scene_keys[] = {"$schema", "comment", "camera", "background", "lights",
+                                         "volumes", "render",  "stereo", "animation",  "output",
+                                         "wall",    "clip",    NULL};
 
 static bool read_document(struct pel_scene *scene, struct pel_scene_plan *plan) {
     const struct pel_scene_node *node = &plan->scene;

@@ -66,6 +66,10 @@ bool pel_scene_read_transfer_value(struct pel_transfer **transfer,
 bool pel_scene_read_lights(struct pel_scene *scene, const struct pel_scene_node *node);
 bool pel_scene_read_material(struct pel_material *material, const struct pel_scene_node *volume);
 
+// Up to PEL_CLIP_MAX planes and boxes, in the world unless they are a volume's.
+bool pel_scene_read_clips(const struct pel_scene_node *object, bool of_scene, int *count,
+                          struct pel_clip clips[PEL_CLIP_MAX]);
+
 // A colour by name, as #rrggbb[aa] or as 3 or 4 numbers; without an alpha, rgba[3] stays.
 bool pel_scene_read_colour(double rgba[4], const struct pel_scene_node *object, const char *key);
 

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "camera/camera.h"
 #include "world/brick.h"
+#include "world/clip.h"
 #include "world/lighting.h"
 #include "world/mixing.h"
 #include "world/model.h"
@@ -326,6 +327,7 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
             return pel_fail_in("volume '%s'", instance->name);
         world->shaded |= pattern.shading != SHADING_NONE;
         pattern.rank = (float)pel_mixing_rank(scene, instance);
+        pel_clip_fill_part(world, &pattern, scene, instance, centre);
         // Only media are mixed.
         pattern.medium =
             pattern.model == MODEL_ABSORPTION ? world->bytes.medium_count++ : MEDIUM_NONE;
@@ -388,6 +390,10 @@ double pel_world_value(const struct pel_scene *scene, int instance, enum pel_rea
     const struct pel_volume *volume = scene->volumes[scene->instances[instance].volume];
     double stored = raw * pel_reader_factor(reader, pel_voxel_class(volume->type));
     return volume->slope * (stored + stored_bias(volume->type)) + volume->intercept;
+}
+
+size_t pel_world_bytes(const struct pel_world *world) {
+    return offsetof(struct world, cuts) + (size_t)world->cut_count * sizeof *world->bytes.cuts;
 }
 
 void pel_world_finish(struct pel_world *world) {

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "base/math.h"
+#include "reference/clip.h"
 #include "reference/mix.h"
 #include "reference/pair.h"
 #include "reference/shade.h"
@@ -228,6 +229,10 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
         total += model == PEL_MODEL_ABSORPTION;
         if (t < gathering->path->spans[k].t_in || t >= gathering->path->spans[k].t_out)
             continue;
+        if (!reference_is_kept(reference, gathering->path, body, t, NULL)) {
+            progress->known = false;
+            continue;
+        }
         ++*taken;
         bool present = sample_at(&sample, p_voxel, gathering, k, t);
         if (present && model == PEL_MODEL_ISO && progress->known)
