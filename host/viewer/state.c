@@ -13,6 +13,7 @@ double pel_state_clock_ms(void) {
 
 void pel_state_renew(struct pel_state *state) {
     state->version++;
+    state->picked = false;
     state->changed_ms = pel_state_clock_ms();
     state->redraw = true;
 }
