@@ -23,6 +23,7 @@ void describe_recipe(__global uint *out) {
     *out++ = OFFSET(struct recipe, time);
     *out++ = OFFSET(struct recipe, object_low);
     *out++ = OFFSET(struct recipe, object_span);
+    *out++ = OFFSET(struct recipe, object_offset);
 }
 
 // Writes the sizes and offsets in the order in which tests/kernel/layout.c lists them.
@@ -74,6 +75,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, step_mm);
     *out++ = OFFSET(struct part, density);
     *out++ = OFFSET(struct part, number);
+    *out++ = OFFSET(struct part, recipe);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);

@@ -7,8 +7,17 @@
 
 #define MEMORY_PARAMETERS                                                                          \
     __global const uchar *buffer0, __global const uchar *buffer1, __global const uchar *buffer2,   \
-        __global const uchar *buffer3
-#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3
+        __global const uchar *buffer3 LIVE_PARAMETERS
+#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 LIVE_ARGUMENTS
+
+// Recipes, and the values of the volumes that they grow on.
+#if LIVE
+#define LIVE_PARAMETERS , __constant struct recipe *recipes, __global const float *objects
+#define LIVE_ARGUMENTS , recipes, objects
+#else
+#define LIVE_PARAMETERS
+#define LIVE_ARGUMENTS
+#endif
 
 // Two neighbouring voxels of one byte, wherever they begin.
 struct __attribute__((packed)) byte_pair {

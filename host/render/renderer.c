@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "device/device.h"
 #include "render/bake.h"
+#include "render/bakery.h"
 #include "render/debug.h"
 #include "render/frame.h"
 #include "render/kernel_cache.h"
@@ -35,7 +36,7 @@ struct pel_renderer {
     struct pel_mirror world, tables;
     struct pel_occupancy occupancy;
     struct pel_resolve resolve;
-    struct pel_kernel *bake; // NULL until the first hypertexture
+    struct pel_bakery bakery;
     struct pel_buffer *picture, *sample_counts;
     size_t picture_bytes, sample_counts_bytes;
     double tiles_per_ms; // as the last frame ran; 0 = unknown
@@ -254,7 +255,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     *extent = picture_extent(&scene->render, lanes, choose_group(renderer, kernel));
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     size_t packets = (extent->tiles + extent->tiles_per_group) * extent->packets_per_tile;
-    if (!pel_residency_update(&renderer->residency, scene, layout) ||
+    if (!pel_residency_update(&renderer->residency, scene, layout, world) ||
         !pel_mirror_update(&renderer->world, device, &world->bytes, sizeof world->bytes,
                            sizeof world->bytes.camera, "the scene", NULL) ||
         !pel_mirror_update(&renderer->tables, device, world->tables,
@@ -384,6 +385,10 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     uint64_t uploaded_before = pel_device_uploaded_bytes(renderer->device);
     struct pel_layout layout;
     struct pel_world world;
+    struct pel_scene shown;
+    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown))
+        return NULL;
+    scene = &shown;
     if (!plan(renderer, scene, &layout, &world, statistics))
         return NULL;
     struct pel_image *image;
@@ -411,8 +416,9 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
     if (x < 0 || y < 0 || x >= scene->render.width || y >= scene->render.height)
         return pel_fail(PEL_ERROR_ARGUMENT, "pixel %d,%d is outside the picture of %d x %d", x, y,
                         scene->render.width, scene->render.height);
-    // The copy borrows everything the scene owns.
-    struct pel_scene seen = *scene;
+    struct pel_scene seen;
+    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen))
+        return false;
     seen.render.debug = PEL_DEBUG_NONE;
     seen.render.supersampling.n = 0;
     seen.render.supersampling.pattern = PEL_PATTERN_REGULAR;
@@ -446,7 +452,8 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
 struct pel_volume *pel_renderer_bake(struct pel_renderer *renderer, const char *recipe,
                                      const struct pel_bake_options *options) {
     static const struct pel_bake_options defaults;
-    return pel_bake(renderer->device, &renderer->bake, recipe, options ? options : &defaults);
+    return pel_bake(renderer->device, &renderer->bakery.kernel, recipe,
+                    options ? options : &defaults);
 }
 
 struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *options) {
@@ -485,7 +492,8 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_buffer_destroy(renderer->picture);
     pel_buffer_destroy(renderer->sample_counts);
     pel_kernel_cache_finish(&renderer->kernels);
-    pel_kernel_destroy(renderer->bake);
+    pel_bakery_finish(&renderer->bakery);
+    pel_live_finish(&renderer->residency.live);
     pel_device_close(renderer->device);
     free(renderer);
 }

@@ -39,6 +39,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .table_linear = world->table_linear,
         .supersampling = world->supersampling,
         .jitter = world->jitter,
+        .live = world->live_count > 0,
         .probe = world->probe,
         .debug = world->bytes.debug != DEBUG_NONE && world->bytes.debug != DEBUG_TIME,
         .table_global =
@@ -50,9 +51,9 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
     snprintf(text, PEL_VARIANT_BYTES,
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
-             "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d",
+             "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d -DLIVE=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
-             variant->jitter, variant->debug, variant->probe, variant->models);
+             variant->jitter, variant->debug, variant->probe, variant->models, variant->live);
 }

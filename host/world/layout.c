@@ -6,6 +6,7 @@
 
 #include "accel/grid.h"
 #include "base/error.h"
+#include "volume/hypertexture.h"
 #include "world/brick.h"
 
 // Buffers are addressed with 31 bits per lane, whatever the device would allow.
@@ -77,7 +78,8 @@ static struct pel_slab *add_slab(struct pel_layout *layout, const struct pel_sce
     struct pel_slab *slab = &layout->slabs[layout->slab_count++];
     // Layouts are compared byte by byte, so padding is cleared as well.
     memset(slab, 0, sizeof *slab);
-    slab->serial = scene->volumes[v]->serial;
+    // A recipe may change without anything here changing.
+    slab->serial = scene->volumes[v]->hypertexture ? 0 : scene->volumes[v]->serial;
     slab->volume = v;
     slab->class_index = pel_voxel_class(scene->volumes[v]->type);
     slab->first = first;
@@ -116,6 +118,11 @@ static bool plan_buffers(struct pel_layout *layout, const struct pel_scene *scen
         limits->max_allocation_bytes < buffer_limit ? limits->max_allocation_bytes : buffer_limit;
     for (int v = 0; v < scene->volume_count; v++) {
         const struct pel_volume *volume = scene->volumes[v];
+        if (volume->hypertexture) {
+            if (!add_slab(layout, scene, v, 0, volume->dims[2]))
+                return false;
+            continue;
+        }
         uint64_t layer = layer_bytes(volume);
         uint64_t most =
             limit / layer * BRICK_SIDE; // slices that fit into one buffer, border included
@@ -233,6 +240,10 @@ static bool plan_images(struct pel_layout *layout, const struct pel_scene *scene
 bool pel_layout_plan(struct pel_layout *layout, const struct pel_scene *scene,
                      const struct pel_layout_limits *limits, enum pel_reader reader,
                      enum pel_reader preferred) {
+    // Images are for voxels; a kernel that works out recipes has none.
+    for (int v = 0; v < scene->volume_count; v++)
+        if (scene->volumes[v]->hypertexture)
+            reader = PEL_READER_BUFFER;
     enum pel_reader first = reader == PEL_READER_AUTO ? preferred : reader;
     memset(layout, 0, sizeof *layout);
     if (first == PEL_READER_IMAGE ? plan_images(layout, scene, limits)

@@ -69,7 +69,8 @@ struct part {
     float step_mm;              // the distance of its samples where it has a grid of its own
     float density;              //
     i32 number;                 // of the part
-    i32 pad[3];
+    i32 recipe;                 // 1 + number of what is worked out at every sample; 0: there are voxels
+    i32 pad[2];
 };
 
 SHARED_ASSERT(sizeof(struct part) == 336, part_size);

@@ -60,6 +60,7 @@ static const struct {
     AT(part, step_mm),
     AT(part, density),
     AT(part, number),
+    AT(part, recipe),
     SIZE(world),
     AT(world, camera),
     AT(world, bounds_low),
@@ -98,6 +99,7 @@ static const struct {
     AT(recipe, time),
     AT(recipe, object_low),
     AT(recipe, object_span),
+    AT(recipe, object_offset),
 };
 
 enum { COUNT = sizeof host / sizeof *host };
