@@ -249,6 +249,9 @@ PEL_API struct pel_transfer *pel_transfer_preset(const char *name);
 
 // Reads a transfer function: Pellucid's own JSON, or ParaView's colour-map JSON.
 PEL_API struct pel_transfer *pel_transfer_load(const char *path);
+
+// Writes one as Pellucid's own JSON, through a temporary that is renamed at the end.
+PEL_API bool pel_transfer_save(const struct pel_transfer *transfer, const char *path);
 PEL_API struct pel_transfer *pel_transfer_copy(const struct pel_transfer *transfer);
 PEL_API void pel_transfer_destroy(struct pel_transfer *transfer);
 
@@ -370,10 +373,18 @@ enum pel_filter {
     PEL_FILTER_CATMULL_ROM,
 };
 
-// How overlapping volumes share one sample. docs/picture.md has the formulae.
+// How overlapping volumes share one sample. docs/mixing.md has formulae, pictures and sources.
 enum pel_mixing {
     PEL_MIX_SUM,  // extinctions add, colour is the extinction-weighted mean; order does not matter
     PEL_MIX_OVER, // blended front to back at each sample in the order of the list
+    PEL_MIX_ORDERED,  // each volume keeps its own step; samples are blended as they come on the ray
+    PEL_MIX_MAX,      // the volume of the greatest extinction hides the others
+    PEL_MIX_PRIORITY, // the volume of the greatest `priority` that shows anything hides the others
+    // Of constructive solid geometry, on extinctions; colours are means as in sum, of difference
+    // the first volume's.
+    PEL_MIX_UNION,        // the greatest
+    PEL_MIX_INTERSECTION, // the least, of all visible volumes
+    PEL_MIX_DIFFERENCE,   // the first visible volume's less all others'
 };
 
 // How light is gathered in a volume along a ray. docs/picture.md, "Optical models", has the
@@ -401,6 +412,8 @@ struct pel_surface {
     bool coloured;  // it has a colour of its own; otherwise the transfer function's
     double rgb[3];  // straight, 0..1
 };
+// The names of the kinds of mixing in the order of the enum; the list ends with NULL.
+PEL_API const char *const *pel_mixing_names(void);
 
 // Where the samples of a ray are counted from.
 enum pel_sample_origin {
@@ -445,6 +458,7 @@ struct pel_instance {
     enum pel_model model;          //
     int surface_count;             // of model iso; 0: one of the middle value, opaque
     struct pel_surface surfaces[PEL_SURFACE_MAX];
+    double priority; // of PEL_MIX_PRIORITY: the greater one wins, of equals the first in the list
 };
 
 #define PEL_LIGHT_MAX 8
@@ -643,6 +657,15 @@ PEL_API bool pel_scene_move(struct pel_scene *scene, int instance, int to);
 // scene is then as before.
 PEL_API bool pel_scene_reload(struct pel_scene *scene, int volume);
 
+// The scene as JSON: what pel_scene_save writes to `path`, whose folder the files in it are
+// relative to. NULL gives it compact, with absolute paths, as for the text in a picture. Memory to
+// free(), or NULL on failure (MEMORY; ARGUMENT when a volume came from no file).
+PEL_API char *pel_scene_text(const struct pel_scene *scene, const char *path);
+
+// Writes a scene file, through a temporary that is renamed at the end. Loading it gives a scene
+// that renders to the same picture.
+PEL_API bool pel_scene_save(const struct pel_scene *scene, const char *path);
+
 // The world bounds of one instance's box, and of all visible instances (false if there is none).
 PEL_API void pel_instance_bounds(const struct pel_scene *scene, int instance,
                                  struct pel_bounds *bounds);
@@ -693,6 +716,7 @@ struct pel_renderer_options {
     enum pel_reader reader;
     int lanes;                     // rays per work-item: 1, 4, 8 or 16; 0 = as the device likes it
     int work_group;                // work-items per work-group; 0 = as the device likes it
+    int work_group_rows;           // packets of rays above each other in one; 0 = 1
     uint64_t max_allocation_bytes; // lowers the device's own limit (for tests); 0 = the device's
 };
 
@@ -713,6 +737,13 @@ struct pel_debug_range {
     double min, max, mean;
 };
 
+// What the device says of the kernel that rendered a frame.
+struct pel_kernel_info {
+    size_t max_work_group;               // work-items
+    size_t work_group_multiple;          // that it likes work-groups to be of
+    uint64_t private_bytes, local_bytes; // of each work-item, and of each work-group
+};
+
 // What one frame took.
 struct pel_render_statistics {
     char device[128], driver[128];
@@ -723,6 +754,7 @@ struct pel_render_statistics {
     double refined;          // share of the pixels that got all their rays: 1 unless adaptive
     uint64_t device_bytes;   // allocated on the device at the end of the frame
     uint64_t uploaded_bytes; // sent to the device for this frame
+    struct pel_kernel_info kernel;
     enum pel_skip skip;
     uint64_t skip_bytes; // of device_bytes, those for skipping
     struct pel_brick_statistics bricks;

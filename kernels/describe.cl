@@ -75,6 +75,8 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, step_mm);
     *out++ = OFFSET(struct part, density);
     *out++ = OFFSET(struct part, number);
+    *out++ = OFFSET(struct part, rank);
+    *out++ = OFFSET(struct part, medium);
     *out++ = OFFSET(struct part, recipe);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
@@ -96,6 +98,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, contrast);
     *out++ = OFFSET(struct world, lamp_count);
     *out++ = OFFSET(struct world, debug);
+    *out++ = OFFSET(struct world, medium_count);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
     describe_recipe(out);

@@ -1,26 +1,28 @@
 // mix.cl - how volumes that overlap share a sample.
 //
-// What is visible at one sample is put into a mixture, one part after the other in the order of the
-// scene's list, and the mixture then becomes a layer behind the light gathered so far. See
-// docs/picture.md, "Mixing".
+// What is visible at one sample is put into a mixture, one part after the other in the order of the scene's list, and
+// the mixture then becomes a layer behind the light gathered so far. docs/mixing.md defines each way; the constructive
+// ones are those of Ricci 1973 and Chen & Tucker 2000 on extinctions, that is, on the opacity of a length that tends to
+// nothing, so that the picture does not depend on the step.
 #ifndef MIX_CL
 #define MIX_CL
 
 #include "pixel.cl"
 #include "span.cl"
 
-#ifndef MIXING
-#define MIXING MIXING_SUM // how volumes that overlap share a sample
-#endif
+// 1: strengths are optical depths of a step, 0: opacities. With one part there is nothing to mix.
+#define STRENGTH_DEPTH (CAPACITY > 1 && MIXING != MIXING_OVER && MIXING != MIXING_ORDERED)
 
-// 1: strengths are optical depths of a step, 0: opacities. With one part there is nothing to add
-// up.
-#define STRENGTH_DEPTH (MIXING == MIXING_SUM && CAPACITY > 1)
+// 1: one part hides all others, 0: colours are the mean of all, weighted by depth.
+#define MIXING_WINNER (MIXING == MIXING_MAX || MIXING == MIXING_PRIORITY)
 
-// The parts of one sample: with STRENGTH_DEPTH depths `a`, and colours weighted by them; otherwise
-// nothing, as each part is a layer of its own.
+// The parts of one sample, as optical depths; unused where each part is a layer of its own.
 struct mixture {
-    real r, g, b, a;
+    real r, g, b;  // colours times their weights
+    real weight;   // the sum of these
+    real depth;    // of the whole
+    real rank;     // of the winner
+    integer count; // parts that are visible
 };
 
 // Puts a layer of straight colour and opacity a behind what has been gathered.
@@ -34,29 +36,65 @@ INLINE void light_add(struct light *light, real r, real g, real b, real a) {
 
 INLINE struct mixture mix_begin(void) {
     const real zero = (real)(0.0f);
-    const struct mixture mixture = {zero, zero, zero, zero};
+    const struct mixture mixture = {zero, zero, zero, zero, zero, (real)(-1.0f), (integer)(0)};
     return mixture;
 }
 
+#if MIXING_WINNER
+// The part takes the place of the one before where it ranks higher.
+INLINE void mix_compete(struct mixture *mixture, real rank, real r, real g, real b, real depth) {
+    const mask wins = MASK(rank > mixture->rank) & MASK(depth > 0.0f);
+    mixture->rank = CHOOSE(mixture->rank, rank, wins);
+    mixture->r = CHOOSE(mixture->r, r, wins);
+    mixture->g = CHOOSE(mixture->g, g, wins);
+    mixture->b = CHOOSE(mixture->b, b, wins);
+    mixture->depth = CHOOSE(mixture->depth, depth, wins);
+}
+#endif
+
 // Adds a part's straight colour and strength at the sample; 0 in lanes where it is not visible.
-INLINE void mix_add(struct mixture *mixture, struct light *light, real r, real g, real b,
-                    real strength) {
-#if STRENGTH_DEPTH
-    mixture->r += strength * r;
-    mixture->g += strength * g;
-    mixture->b += strength * b;
-    mixture->a += strength;
-#else
+INLINE void mix_add(struct mixture *mixture, struct light *light, __constant struct part *part,
+                    real r, real g, real b, real strength) {
+#if !STRENGTH_DEPTH
     light_add(light, r, g, b, strength);
+#elif MIXING_WINNER
+    mix_compete(mixture, MIXING == MIXING_MAX ? strength : (real)(part->rank), r, g, b, strength);
+#else
+    // With `difference` the others only take away.
+    const bool taken_away = MIXING == MIXING_DIFFERENCE && part->medium > 0;
+    const real weight = taken_away ? (real)(0.0f) : strength;
+    mixture->r += weight * r;
+    mixture->g += weight * g;
+    mixture->b += weight * b;
+    mixture->weight += weight;
+#if MIXING == MIXING_UNION
+    mixture->depth = fmax(mixture->depth, strength);
+#elif MIXING == MIXING_INTERSECTION
+    const mask visible = MASK(strength > 0.0f), first = MASK(mixture->count == 0);
+    const real least = CHOOSE(fmin(mixture->depth, strength), strength, first);
+    mixture->depth = CHOOSE(mixture->depth, least, visible);
+    mixture->count -= visible;
+#else
+    mixture->depth += taken_away ? -strength : strength;
+#endif
 #endif
 }
 
 // Puts what the mixture makes of its parts behind what has been gathered.
-INLINE void mix_end(const struct mixture *mixture, struct light *light) {
+INLINE void mix_end(__constant struct world *world, const struct mixture *mixture,
+                    struct light *light) {
 #if STRENGTH_DEPTH
-    const real share = 1.0f / fmax(mixture->a, FLT_MIN);
-    light_add(light, mixture->r * share, mixture->g * share, mixture->b * share,
-              1.0f - exp(-mixture->a));
+    real depth = mixture->depth, share = (real)(1.0f);
+#if !MIXING_WINNER
+    share = 1.0f / fmax(mixture->weight, FLT_MIN);
+#endif
+#if MIXING == MIXING_INTERSECTION
+    // A part that is not there, or not visible, has no depth at all.
+    depth = CHOOSE((real)(0.0f), depth, MASK(mixture->count == world->medium_count));
+#elif MIXING == MIXING_DIFFERENCE
+    depth = fmax(depth, 0.0f);
+#endif
+    light_add(light, mixture->r * share, mixture->g * share, mixture->b * share, 1.0f - exp(-depth));
 #endif
 }
 

@@ -7,11 +7,15 @@
 #include "classify.cl"
 #include "mix.cl"
 #include "model.cl"
+#include "order.cl"
 #include "pixel.cl"
 #include "shade.cl"
 #include "span.cl"
 #if DEBUG
 #include "debug.cl"
+#endif
+#if MODELS & MODELS_EMISSION
+#include "exact.cl"
 #endif
 #if PROBE
 #include "probe_log.cl"
@@ -20,6 +24,9 @@
 #include "resolve.cl"
 #endif
 
+#ifndef GROUP_ROWS
+#define GROUP_ROWS 1 // packets above each other in a work-group
+#endif
 #ifndef DEBUG
 #define DEBUG 0 // 1: a number of each ray in place of its light
 #endif
@@ -49,24 +56,36 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
 
     while (any_lane(alive)) {
-#if CAPACITY > 1
+#if MIXING == MIXING_ORDERED
+        const real place = order_nearest(crossing);
+        alive &= MASK(place < NOWHERE);
+        active.count = crossing->count;
+#elif CAPACITY > 1
         if (any_lane(alive & MASK(i >= active.until)))
             begin_span(&active, crossing, i, alive);
 #endif
         mask seen = (mask)(0);
         struct mixture mixture = mix_begin();
         for (int a = 0; a < COUNTED(active.count); a++) {
-            const int c = LISTED(active.list, a);
+            const int c = MIXING == MIXING_ORDERED ? a : LISTED(active.list, a);
             struct cursor *cursor = &crossing->cursors[c];
             __constant struct part *part = &world->parts[LISTED(crossing->parts, c)];
             mask present = alive;
-#if CAPACITY > 1
+#if MIXING == MIXING_ORDERED
+            present &= MASK(order_place(crossing, c) == place);
+            i = cursor->next;
+#elif CAPACITY > 1
             present &= MASK(i >= cursor->next) & MASK(i < cursor->end);
+#endif
+#if CAPACITY > 1
             if (!any_lane(present))
                 continue;
 #endif
             *samples -= present;
             const real t = TO_REAL(cursor_clamp(cursor, i));
+#if MIXING == MIXING_ORDERED
+            cursor->next -= present;
+#endif
             const real x = cursor->ox + t * cursor->dx, y = cursor->oy + t * cursor->dy,
                        z = cursor->oz + t * cursor->dz;
             const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
@@ -82,10 +101,15 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             const real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
 #if PROBE
-            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, light.a);
+            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, layer->a);
 #endif
             if (!any_lane(visible)) {
+#if MIXING == MIXING_ORDERED
+                const integer next = cursor_leap(part, cells, cursor, cursor->next);
+                cursor->next = CHOOSE(cursor->next, next, present);
+#else
                 cursor->next = cursor_leap(part, cells, cursor, i + 1);
+#endif
                 continue;
             }
             seen |= visible;
@@ -102,18 +126,22 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #if SHADING
             if (part->shading != SHADING_NONE)
                 shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
-                      SAMPLE_NUMBER(crossing, t), x, y, z, CHOOSE(zero, sample.raw, visible), &r, &g,
-                      &b);
+                      SAMPLE_NUMBER(crossing, c, t), x, y, z, CHOOSE(zero, sample.raw, visible),
+                      &r, &g, &b);
 #endif
 #if PROBE
             log_colour(crossing, r, g, b);
 #endif
-            mix_add(&mixture, layer, r, g, b, CHOOSE(zero, strength, visible));
+            mix_add(&mixture, layer, part, r, g, b, CHOOSE(zero, strength, visible));
         }
 
+#if MIXING == MIXING_ORDERED
+        if (any_lane(seen))
+            alive &= MASK(light.a <= world->termination);
+#else
         i -= alive; // one on, where the ray still runs
         if (any_lane(seen)) {
-            mix_end(&mixture, layer);
+            mix_end(world, &mixture, layer);
 #if MODELS
             gathered_join(&gathered, &light);
 #endif
@@ -122,6 +150,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             i = leap(&active, crossing, i);
         }
         alive &= MASK(i < last);
+#endif
     }
 #if MODELS & MODELS_PROJECTION
     slip_in_projections(world, table, &gathered, crossing, &light);
@@ -138,8 +167,12 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint packets_per_tile = packets_per_row * (TILE_PX / PACKET_H);
     const uint packet = get_global_id(0) % packets_per_tile;
     const uint tile = get_global_id(0) / packets_per_tile + first_tile;
-    const int left = (int)(tile % world->tiles_x * TILE_PX + packet % packets_per_row * PACKET_W);
-    const int top = (int)(tile / world->tiles_x * TILE_PX + packet / packets_per_row * PACKET_H);
+    // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that high.
+    const uint band = packet / (packets_per_row * GROUP_ROWS),
+               place = packet % (packets_per_row * GROUP_ROWS);
+    const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;
+    const int left = (int)(tile % world->tiles_x * TILE_PX + column * PACKET_W);
+    const int top = (int)(tile / world->tiles_x * TILE_PX + row * PACKET_H);
     __global uint *count = &sample_counts[tile * packets_per_tile + packet];
     const uint earlier = earlier_samples(world, *count RAY_ARGUMENTS);
     *count = earlier;
@@ -153,8 +186,12 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     find_crossing(world, cells, &ray, &crossing);
     integer samples = (integer)(0);
     struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)};
+#if MODELS & MODELS_EMISSION
+    light = follow_exactly(world, table, MEMORY_ARGUMENTS, &ray, &samples);
+#else
     if (crossing.count > 0)
         light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
+#endif
 
     const float4 behind = world->background;
     const real clear = 1.0f - light.a;

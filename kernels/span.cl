@@ -24,6 +24,9 @@
 #ifndef SHADING
 #define SHADING 0 // 1: some volume is shaded
 #endif
+#ifndef MIXING
+#define MIXING MIXING_SUM // how volumes that overlap share a sample
+#endif
 #ifndef PROBE
 #define PROBE 0 // 1: one ray writes down what it meets
 #endif
@@ -58,6 +61,11 @@ struct crossing {
 #if MODELS & MODELS_BACKWARD
     integer mirror; // what the numbers of a sample front to back and back to front add up to
 #endif
+#if MIXING == MIXING_ORDERED
+    // Where samples 0 of each lie and how far apart they are, in steps of the world from its sample 0.
+    real starts[CAPACITY];
+    float strides[CAPACITY];
+#endif
 };
 
 #if MODELS & MODELS_BACKWARD
@@ -76,9 +84,30 @@ INLINE void cursor_mirror(struct cursor *cursor, integer mirror) {
     cursor->dy = -cursor->dy;
     cursor->dz = -cursor->dz;
 }
-#define SAMPLE_NUMBER(crossing, t) (TO_REAL((crossing)->mirror) - (t))
+#endif
+
+// The number that a cursor's sample has front to back among those of the world's step.
+#if MODELS & MODELS_BACKWARD
+#define SAMPLE_NUMBER(crossing, c, t) (TO_REAL((crossing)->mirror) - (t))
+#elif MIXING == MIXING_ORDERED
+#define SAMPLE_NUMBER(crossing, c, t) ((crossing)->starts[c] + (t) * (crossing)->strides[c])
 #else
-#define SAMPLE_NUMBER(crossing, t) (t)
+#define SAMPLE_NUMBER(crossing, c, t) (t)
+#endif
+
+#if MIXING == MIXING_ORDERED
+// Where the rays enter the instance whose first part is p.
+INLINE real enter_instance(__constant struct world *world, const struct ray *ray, int p) {
+    const int medium = world->parts[p].medium;
+    real near = (real)(FLT_MAX);
+    for (int q = p; q < world->part_count && world->parts[q].medium == medium; q++) {
+        const struct ray ray_voxel = transform_ray(world->parts[q].voxel_from_world, ray);
+        const struct span span =
+            box_span(&ray_voxel, world->parts[q].box_low, world->parts[q].box_high);
+        near = CHOOSE(near, fmin(near, span.near), MASK(span.near < span.far));
+    }
+    return near;
+}
 #endif
 
 // Finds the parts that the packet crosses and where each ray's samples begin.
@@ -107,11 +136,22 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     crossing->mirror = sample_at(bounds.far, t_near, RAY_PHASE(world, ray), samples_per_mm) + 1;
 #endif
     crossing->count = 0;
+#if MIXING == MIXING_ORDERED
+    real t_own = t_near;
+#endif
     for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
         __constant struct part *part = &world->parts[p];
         const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
         const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
-        struct cursor cursor = cursor_begin(world, part, &ray_voxel, &span, t_near);
+#if MIXING == MIXING_ORDERED
+        if (!world->origin_bounds && (p == 0 || part[-1].medium != part->medium))
+            t_own = enter_instance(world, ray, p);
+        const float step_mm = part->step_mm;
+#else
+        const real t_own = t_near;
+        const float step_mm = world->step_mm;
+#endif
+        struct cursor cursor = cursor_begin(world, part, &ray_voxel, &span, t_own, step_mm);
 #if MODELS & MODELS_BACKWARD
         cursor_mirror(&cursor, crossing->mirror);
 #endif
@@ -121,6 +161,12 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
             const int c = CAPACITY == 1 ? 0 : crossing->count;
             crossing->cursors[c] = cursor;
             crossing->parts[c] = p;
+#if MIXING == MIXING_ORDERED
+            const ray_phase phase = RAY_PHASE(world, ray);
+            crossing->strides[c] = step_mm / world->step_mm;
+            crossing->starts[c] =
+                (t_own - t_near) / world->step_mm + phase * crossing->strides[c] - phase;
+#endif
             crossing->count++;
         }
     }

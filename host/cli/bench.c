@@ -115,7 +115,8 @@ struct bench_case *bench_add(struct bench *bench, const char *suite, const char 
                                  .baseline = -1,
                                  .volumes = 1,
                                  .reader = bench->options.renderer.reader,
-                                 .lanes = bench->options.renderer.lanes};
+                                 .lanes = bench->options.renderer.lanes,
+                                 .work_group = bench->options.renderer.work_group};
     snprintf(added->suite, sizeof added->suite, "%s", suite);
     snprintf(added->name, sizeof added->name, "%s", name);
     return added;
@@ -160,7 +161,7 @@ double bench_greatest(const struct bench_times *times) {
 }
 
 void bench_init(struct bench *bench) {
-    *bench = (struct bench){.options.frames = 7};
+    *bench = (struct bench){.options.frames = 7, .options.largest = 512};
 }
 
 static void release_kept(struct bench_kept *kept) {

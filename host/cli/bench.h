@@ -9,6 +9,8 @@
 //     bench_run.c         the turns
 //     bench_peer.c        one turn of another program
 //     bench_start.c       one turn of starting this program
+//     bench_sequential.c  one turn of one thread in plain C
+//     bench_plot.c        cases -> bar charts
 //     bench_report.c      cases -> JSON lines
 //     bench_table.c       cases -> a Markdown table
 #ifndef PEL_CLI_BENCH_H
@@ -29,7 +31,8 @@ struct bench_peer {
 struct bench_options {
     int frames;        // turns
     int width, height; // 0: the suite's own
-    const char *json, *markdown, *data;
+    int largest;       // voxels along a side of the largest volume of `thesis`
+    const char *json, *markdown, *plot, *data;
     struct pel_renderer_options renderer;
     struct bench_peer peers[BENCH_PEERS];
     int peer_count;
@@ -38,6 +41,7 @@ struct bench_options {
 enum bench_kind {
     BENCH_FRAME,      // a frame of a scene whose voxels and kernels are on the device already
     BENCH_COLD_START, // the whole program, with no kernel compiled before
+    BENCH_SEQUENTIAL, // a frame of one volume by one thread in plain C
     BENCH_WARM_START, // the whole program, with the kernels of the last cold start
 };
 
@@ -59,6 +63,9 @@ struct bench_case {
     int width, height;       // of the picture, overruling the scene's
     enum pel_reader reader;  // as asked for
     int lanes;               // as asked for; 0: the device's choice
+    int work_group;          // likewise
+    int work_group_rows;     // likewise
+    double published_fps;    // frames per second that a paper reports of this work; 0: none
 
     // Results.
     char problem[256];                       // why it was left out; "": it was not
@@ -97,6 +104,15 @@ bool bench_keep_scene(struct bench *bench, struct pel_scene *scene);
 // A copy of a volume's voxels, so that several volumes share no memory; kept by the bench.
 struct pel_volume *bench_copy_volume(struct bench *bench, const struct pel_volume *volume);
 
+// Looks at all of a scene from the front; false after a message.
+bool bench_fit_camera(struct pel_scene *scene, int width, int height);
+
+// `count` copies of a volume in one place, each turned a little further, or side by side, in the
+// transfer function `hot`, thin enough to see through many, mixed by their sum. Borrowed from the
+// bench.
+struct pel_scene *bench_ball_scene(struct bench *bench, struct pel_volume *const *balls, int count,
+                                   bool side_by_side);
+
 // A rotation about the y axis through `centre`, right-handed.
 struct pel_matrix bench_rotation(double degrees, const double centre[3]);
 
@@ -111,6 +127,8 @@ double bench_greatest(const struct bench_times *times);
 int bench_add_task(struct bench *bench);
 int bench_add_volumes(struct bench *bench);
 int bench_add_start(struct bench *bench);
+int bench_add_workgroup(struct bench *bench);
+int bench_add_thesis(struct bench *bench);
 int bench_add_scene_file(struct bench *bench, const char *path);
 
 // A volume with the character of the task's: noisy shell and smooth blobs, two thirds of the voxels
@@ -138,6 +156,10 @@ bool bench_start_run(const struct bench *bench, struct bench_case *one, const ch
 bool bench_folder_create(char *path);
 void bench_folder_remove(const char *path);
 
+// Renders a case's scene, of one volume of 8-bit voxels without gradients, in plain C: one thread,
+// one ray after the other, trilinear, no skipping. On failure false, after a message.
+bool bench_sequential_run(const struct bench_case *one, double *ms, uint64_t *samples);
+
 // ---- Reports -----------------------------------------------------------------------------------
 
 // What the measurements were taken on.
@@ -153,5 +175,8 @@ void bench_write_json(FILE *file, const struct bench *bench, const struct bench_
 
 // One aligned Markdown table for each suite.
 void bench_write_table(FILE *file, const struct bench *bench, const struct bench_machine *machine);
+
+// A bar chart of each suite's medians as SVG, one above the other.
+void bench_write_plot(FILE *file, const struct bench *bench, const struct bench_machine *machine);
 
 #endif

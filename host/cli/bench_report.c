@@ -71,6 +71,14 @@ static void add_frame(json_t *object, const struct bench_case *one) {
     json_object_set_new(object, "reader", json_string(report_reader(statistics->reader)));
     json_object_set_new(object, "lanes", json_integer(statistics->lanes));
     json_object_set_new(object, "work_group", json_integer(statistics->work_group));
+    json_object_set_new(object, "kernel_max_work_group",
+                        json_integer((json_int_t)statistics->kernel.max_work_group));
+    json_object_set_new(object, "kernel_work_group_multiple",
+                        json_integer((json_int_t)statistics->kernel.work_group_multiple));
+    json_object_set_new(object, "kernel_private_bytes",
+                        json_integer((json_int_t)statistics->kernel.private_bytes));
+    json_object_set_new(object, "kernel_local_bytes",
+                        json_integer((json_int_t)statistics->kernel.local_bytes));
     json_object_set_new(object, "device_bytes", json_integer((json_int_t)statistics->device_bytes));
 }
 
@@ -113,6 +121,10 @@ static json_t *case_json(const struct bench *bench, int index,
         json_object_set_new(object, "baseline_ratio",
                             report_number(bench_median(&one->baseline_ratio)));
     }
+    if (one->work_group_rows)
+        json_object_set_new(object, "work_group_rows", json_integer(one->work_group_rows));
+    if (one->published_fps > 0)
+        json_object_set_new(object, "published_fps", report_number(one->published_fps));
     if (one->with_peers && bench->options.peer_count)
         json_object_set_new(object, "peers", peers_json(bench, one));
     json_object_set_new(object, "device", report_text(machine->device));

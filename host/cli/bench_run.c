@@ -17,7 +17,7 @@
 struct bench_engine {
     struct bench_engine *next;
     enum pel_reader reader;
-    int lanes, volume_count;
+    int lanes, work_group, work_group_rows, volume_count;
     struct pel_volume *volumes[PEL_VOLUME_MAX];
     struct pel_renderer *renderer;
 };
@@ -27,6 +27,8 @@ static struct pel_renderer *find_renderer(struct bench *bench, const struct benc
     size_t bytes = (size_t)scene->volume_count * sizeof *scene->volumes;
     for (struct bench_engine *engine = bench->engines; engine; engine = engine->next)
         if (engine->reader == one->reader && engine->lanes == one->lanes &&
+            engine->work_group == one->work_group &&
+            engine->work_group_rows == one->work_group_rows &&
             engine->volume_count == scene->volume_count &&
             memcmp(engine->volumes, scene->volumes, bytes) == 0)
             return engine->renderer;
@@ -36,6 +38,8 @@ static struct pel_renderer *find_renderer(struct bench *bench, const struct benc
     struct pel_renderer_options options = bench->options.renderer;
     options.reader = made->reader = one->reader;
     options.lanes = made->lanes = one->lanes;
+    options.work_group = made->work_group = one->work_group;
+    options.work_group_rows = made->work_group_rows = one->work_group_rows;
     made->volume_count = scene->volume_count;
     memcpy(made->volumes, scene->volumes, bytes);
     made->renderer = pel_renderer_create(&options);
@@ -101,6 +105,10 @@ static int take_frame(struct bench *bench, struct bench_case *one, double *ms) {
                                                                           : (int)PEL_ERROR_MEMORY;
 }
 
+static int take_sequential(struct bench_case *one, double *ms) {
+    return bench_sequential_run(one, ms, &one->statistics.samples) ? PEL_OK : (int)PEL_ERROR_MEMORY;
+}
+
 static bool take_peers(struct bench *bench, struct bench_case *one, double frame_ms) {
     bool good = true;
     for (int p = 0; good && one->with_peers && p < bench->options.peer_count; p++) {
@@ -124,8 +132,9 @@ static int take_turn(struct bench *bench, struct bench_case *one, char cache[256
     double ms;
     if (one->problem[0])
         return PEL_OK;
-    int status =
-        one->kind == BENCH_FRAME ? take_frame(bench, one, &ms) : take_start(bench, one, cache, &ms);
+    int status = one->kind == BENCH_FRAME        ? take_frame(bench, one, &ms)
+                 : one->kind == BENCH_SEQUENTIAL ? take_sequential(one, &ms)
+                                                 : take_start(bench, one, cache, &ms);
     if (status)
         return status;
     bool good = bench_time_add(bench, &one->frame, ms);

@@ -12,8 +12,7 @@
 
 enum { BALL_SIZE = 64, USUAL_WIDTH = 640, USUAL_HEIGHT = 480 };
 
-// Looks at all of a scene from the front.
-static bool fit_camera(struct pel_scene *scene, int width, int height) {
+bool bench_fit_camera(struct pel_scene *scene, int width, int height) {
     struct pel_bounds bounds;
     if (pel_scene_bounds(scene, &bounds) &&
         pel_camera_fit(&scene->camera, "anterior", &bounds, (double)width / height))
@@ -31,8 +30,8 @@ static void place_in_grid(struct pel_scene *scene, int k, int count, double pitc
     scene->instances[k].transform.m[2][3] += pitch_mm * (k / columns);
 }
 
-static struct pel_scene *ball_scene(struct bench *bench, struct pel_volume *const *balls, int count,
-                                    bool side_by_side) {
+struct pel_scene *bench_ball_scene(struct bench *bench, struct pel_volume *const *balls, int count,
+                                   bool side_by_side) {
     static const double degrees = 11;
     struct pel_scene *scene = bench_scene(bench, balls, count);
     if (!scene)
@@ -75,8 +74,8 @@ static bool add_balls(struct bench *bench, struct pel_volume *const *balls, int 
     added->height = bench->options.width ? bench->options.height : USUAL_HEIGHT;
     added->volumes = count;
     added->baseline = count > 1 ? baseline : -1;
-    added->scene = ball_scene(bench, balls, count, side_by_side);
-    return added->scene && fit_camera(added->scene, added->width, added->height);
+    added->scene = bench_ball_scene(bench, balls, count, side_by_side);
+    return added->scene && bench_fit_camera(added->scene, added->width, added->height);
 }
 
 int bench_add_volumes(struct bench *bench) {

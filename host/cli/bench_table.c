@@ -20,6 +20,9 @@ enum {
     COLUMN_KERNEL,
     COLUMN_SAMPLES,
     COLUMN_SPEED,
+    COLUMN_KERNEL_INFO,
+    COLUMN_FPS,
+    COLUMN_PUBLISHED,
     COLUMN_BASELINE,
     COLUMN_PEERS, // one for each
     COLUMNS = COLUMN_PEERS + BENCH_PEERS,
@@ -49,8 +52,10 @@ static void set_number(struct row *row, int column, double value) {
 
 static void fill_header(struct row *row, const struct bench *bench) {
     static const char *const names[COLUMN_PEERS] = {
-        "#",  "case",  "pixels",    "volumes",  "reader",     "lanes",
-        "ms", "range", "kernel ms", "Msamples", "Msamples/s", "ratio",
+        "#",         "case",          "pixels",     "volumes",
+        "reader",    "lanes",         "ms",         "range",
+        "kernel ms", "Msamples",      "Msamples/s", "kernel max, multiple, private bytes",
+        "fps",       "published fps", "ratio",
     };
     for (int c = 0; c < COLUMN_PEERS; c++)
         set(row, c, "%s", names[c]);
@@ -79,6 +84,15 @@ static void fill_row(struct row *row, const struct bench *bench, int index) {
         set_number(row, COLUMN_SAMPLES, samples / 1e6);
         set_number(row, COLUMN_SPEED, samples / bench_median(&one->frame) / 1e3);
     }
+    // Where a paper has frames per second, so have we; where groups vary, what the kernel bears.
+    if (one->published_fps > 0) {
+        set_number(row, COLUMN_FPS, 1e3 / bench_median(&one->frame));
+        set(row, COLUMN_PUBLISHED, "%.1f", one->published_fps);
+    }
+    if (one->work_group_rows && !one->problem[0])
+        set(row, COLUMN_KERNEL_INFO, "%zu, %zu, %llu", statistics->kernel.max_work_group,
+            statistics->kernel.work_group_multiple,
+            (unsigned long long)statistics->kernel.private_bytes);
     if (one->baseline_ratio.count)
         set(row, COLUMN_BASELINE, "%.2f of #%d", bench_median(&one->baseline_ratio),
             one->baseline + 1);

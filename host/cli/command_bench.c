@@ -20,6 +20,8 @@ static const struct suite {
      "256^3 voxels, transparent, nearly a surface, and rainbow; 1 to 8 copies; lanes, readers",
      bench_add_task},
     {"volumes", "1 to 32 volumes of 64^3 voxels, overlapping and side by side", bench_add_volumes},
+    {"workgroup", "sizes and shapes of work-groups, and rays per work-item", bench_add_workgroup},
+    {"thesis", "what tables 6.1 to 6.11 of Romero 2009 measured", bench_add_thesis},
     {"start", "the whole program on a small scene, before and after kernels are cached",
      bench_add_start},
 };
@@ -32,7 +34,9 @@ enum {
     KEY_SIZE,
     KEY_JSON,
     KEY_MARKDOWN,
+    KEY_PLOT,
     KEY_DATA,
+    KEY_LARGEST,
     KEY_PEER,
     KEY_DEVICE,
     KEY_READER,
@@ -44,6 +48,8 @@ static const struct argp_option options[] = {
     {"list", KEY_LIST, NULL, 0, "List the suites", 0},
     {"frames", KEY_FRAMES, "N", 0, "Frames of each case (default 7)", 0},
     {"size", KEY_SIZE, "WxH", 0, "Pixels (default: the suite's own)", 0},
+    {"largest", KEY_LARGEST, "N", 0,
+     "Voxels along a side of the largest volume of the suite 'thesis' (default 512)", 0},
     {"data", KEY_DATA, "DIR", 0,
      "Folder with the files of the suite 'task', or with their folder 'oracle' (default: "
      "$PELLUCID_TEST_DATA)",
@@ -55,6 +61,7 @@ static const struct argp_option options[] = {
      0},
     {"json", KEY_JSON, "FILE", 0, "Write a line of JSON for each case; - for standard output", 0},
     {"markdown", KEY_MARKDOWN, "FILE", 0, "Write the tables to a file, too", 0},
+    {"plot", KEY_PLOT, "FILE", 0, "Draw the medians as bars, as SVG", 0},
     {"device", KEY_DEVICE, "D", 0,
      "Number, part of the name, or type (gpu, cpu); 'pellucid devices' lists them", 0},
     {"reader", KEY_READER, "auto|buffer|image", 0, "How kernels read voxels", 0},
@@ -117,6 +124,12 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_MARKDOWN:
         chosen->markdown = argument;
+        break;
+    case KEY_PLOT:
+        chosen->plot = argument;
+        break;
+    case KEY_LARGEST:
+        good = cli_integer("--largest", argument, 16, &chosen->largest);
         break;
     case KEY_DATA:
         chosen->data = argument;
@@ -269,6 +282,8 @@ static int report(const struct bench *bench) {
         status = write_output(json, bench_write_json, bench, &machine);
     if (!status && markdown && !is_standard_output(markdown))
         status = write_output(markdown, bench_write_table, bench, &machine);
+    if (!status && bench->options.plot)
+        status = write_output(bench->options.plot, bench_write_plot, bench, &machine);
     return report_finish(status ? status : check_peers(bench));
 }
 
@@ -282,6 +297,8 @@ static int run(struct bench *bench, const struct arguments *arguments) {
     int status = check_output(chosen->json);
     if (!status)
         status = check_output(chosen->markdown);
+    if (!status)
+        status = check_output(chosen->plot);
     if (!status)
         status = add_names(bench, arguments->names, arguments->name_count);
     if (!status)

@@ -43,15 +43,10 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     }
 }
 
-static const char *const mixing_names[] = {
-    [PEL_MIX_SUM] = "sum",
-    [PEL_MIX_OVER] = "over",
-};
-
 static void print_scene(const struct pel_scene *scene) {
     const struct pel_camera *camera = &scene->camera;
     printf("  %-12s %d x %d pixels, mixing %s, step %.6g\n", "picture", scene->render.width,
-           scene->render.height, mixing_names[scene->render.mixing], scene->render.step);
+           scene->render.height, pel_mixing_names()[scene->render.mixing], scene->render.step);
     printf("  %-12s from %.6g, %.6g, %.6g to %.6g, %.6g, %.6g mm\n", "camera", camera->eye[0],
            camera->eye[1], camera->eye[2], camera->target[0], camera->target[1], camera->target[2]);
     struct pel_bounds bounds;
@@ -70,7 +65,7 @@ static json_t *scene_json(const struct pel_scene *scene) {
     json_t *object = json_object();
     json_object_set_new(object, "width", json_integer(scene->render.width));
     json_object_set_new(object, "height", json_integer(scene->render.height));
-    json_object_set_new(object, "mixing", json_string(mixing_names[scene->render.mixing]));
+    json_object_set_new(object, "mixing", json_string(pel_mixing_names()[scene->render.mixing]));
     json_object_set_new(object, "step", report_number(scene->render.step));
     json_object_set_new(object, "eye", report_numbers(scene->camera.eye, 3));
     json_object_set_new(object, "target", report_numbers(scene->camera.target, 3));

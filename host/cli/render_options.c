@@ -95,7 +95,10 @@ static const struct argp_option argp_options[] = {
      "as model=phong,shininess=40",
      0},
     {0, 0, NULL, 0, "Rendering:", 4},
-    {"mix", KEY_MIX, "sum|over", 0, "How overlapping volumes share a sample", 0},
+    {"mix", KEY_MIX, "KIND", 0,
+     "How overlapping volumes share a sample: sum, over, ordered, max, priority, union, "
+     "intersection or difference",
+     0},
     {"model", KEY_MODEL, "absorption|emission|mip|minip|average|iso|thesis", 0,
      "How light is gathered along a ray, in volumes that say nothing else; thesis is that of a "
      "2009 "

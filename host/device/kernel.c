@@ -118,3 +118,19 @@ size_t pel_kernel_max_group(const struct pel_kernel *kernel) {
                              sizeof group, &group, NULL);
     return group;
 }
+
+struct pel_kernel_info pel_kernel_describe(const struct pel_kernel *kernel) {
+    size_t multiple = 0;
+    cl_ulong private_bytes = 0, local_bytes = 0;
+    cl_device_id id = kernel->device->id;
+    clGetKernelWorkGroupInfo(kernel->kernel, id, CL_KERNEL_PREFERRED_WORK_GROUP_SIZE_MULTIPLE,
+                             sizeof multiple, &multiple, NULL);
+    clGetKernelWorkGroupInfo(kernel->kernel, id, CL_KERNEL_PRIVATE_MEM_SIZE, sizeof private_bytes,
+                             &private_bytes, NULL);
+    clGetKernelWorkGroupInfo(kernel->kernel, id, CL_KERNEL_LOCAL_MEM_SIZE, sizeof local_bytes,
+                             &local_bytes, NULL);
+    return (struct pel_kernel_info){.max_work_group = pel_kernel_max_group(kernel),
+                                    .work_group_multiple = multiple,
+                                    .private_bytes = private_bytes,
+                                    .local_bytes = local_bytes};
+}

@@ -24,6 +24,7 @@
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
+#include "world/model.h"
 
 // A batch of tiles should take about this long unless the caller says otherwise.
 static const double batch_default_ms = 150;
@@ -247,6 +248,8 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     struct pel_variant variant =
         pel_variant_choose(world, layout->reader, statistics->skip, lanes,
                            pel_device_describe(device)->max_constant_bytes);
+    if (renderer->options.work_group_rows)
+        variant.group_rows = renderer->options.work_group_rows;
     struct pel_kernel *kernel = pel_kernel_cache_find(&renderer->kernels, device, &variant);
     if (!kernel)
         return NULL;
@@ -281,6 +284,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         statistics->bricks = renderer->occupancy.hierarchy.statistics;
     }
     statistics->work_group = (int)extent->group;
+    statistics->kernel = pel_kernel_describe(kernel);
     return kernel;
 }
 
@@ -372,6 +376,8 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout->reader;
     statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
+    if (pel_model_skips_nothing(scene))
+        statistics->skip = PEL_SKIP_NONE;
     statistics->prepare_ms = lap_ms(&mark);
     return true;
 }
@@ -458,15 +464,8 @@ struct pel_volume *pel_renderer_bake(struct pel_renderer *renderer, const char *
 
 struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *options) {
     struct pel_renderer_options chosen = options ? *options : (struct pel_renderer_options){0};
-    int lanes = chosen.lanes, group = chosen.work_group;
-    if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16) {
-        pel_fail(PEL_ERROR_ARGUMENT, "%d lanes; there are kernels for 1, 4, 8 and 16", lanes);
+    if (!pel_settings_check_options(&chosen))
         return NULL;
-    }
-    if (group < 0 || (group & (group - 1)) != 0) {
-        pel_fail(PEL_ERROR_ARGUMENT, "work-group of %d, must be a power of two", group);
-        return NULL;
-    }
     struct pel_renderer *renderer = pel_allocate(1, sizeof *renderer);
     if (!renderer)
         return NULL;

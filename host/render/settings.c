@@ -1,7 +1,10 @@
 // settings.c - whether a scene's settings make sense.
 #include "render/settings.h"
 
+#include <math.h>
+
 #include "base/error.h"
+#include "shared/variant.h"
 #include "world/bricks.h"
 #include "world/model.h"
 #include "world/step.h"
@@ -36,6 +39,25 @@ bool pel_settings_check(const struct pel_scene *scene) {
         return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
     if ((unsigned)settings->debug > PEL_DEBUG_TIME)
         return pel_fail(PEL_ERROR_ARGUMENT, "debug view %d", (int)settings->debug);
+    if ((unsigned)settings->mixing > PEL_MIX_DIFFERENCE)
+        return pel_fail(PEL_ERROR_ARGUMENT, "mixing of kind %d", (int)settings->mixing);
+    for (int k = 0; k < scene->instance_count; k++)
+        if (!isfinite(scene->instances[k].priority))
+            return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': priority %g, must be finite",
+                            scene->instances[k].name, scene->instances[k].priority);
     return pel_model_check(scene) && pel_bricks_check(&settings->bricks) &&
            check_supersampling(&settings->supersampling);
+}
+
+bool pel_settings_check_options(const struct pel_renderer_options *options) {
+    int lanes = options->lanes, group = options->work_group, rows = options->work_group_rows;
+    if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
+        return pel_fail(PEL_ERROR_ARGUMENT, "%d lanes; there are kernels for 1, 4, 8 and 16",
+                        lanes);
+    if (group < 0 || (group & (group - 1)) != 0)
+        return pel_fail(PEL_ERROR_ARGUMENT, "work-group of %d, must be a power of two", group);
+    // A tile has at least four packets above each other, however many rays there are in one.
+    if (rows < 0 || rows > TILE_PX / 4 || (rows & (rows - 1)) != 0)
+        return pel_fail(PEL_ERROR_ARGUMENT, "work-groups of %d rows, must be 1, 2 or 4", rows);
+    return true;
 }

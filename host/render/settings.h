@@ -8,4 +8,7 @@
 // are checked when they are read; this is for scenes made or changed by a program.
 bool pel_settings_check(const struct pel_scene *scene);
 
+// The same for what a renderer is made with.
+bool pel_settings_check_options(const struct pel_renderer_options *options);
+
 #endif

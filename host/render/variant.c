@@ -25,6 +25,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
     int parts = world->bytes.part_count;
     return (struct pel_variant){
         .lanes = lanes,
+        .group_rows = 1,
         .reader = reader == PEL_READER_IMAGE ? READER_IMAGE : READER_BUFFER,
         // An empty scene still needs a kernel that compiles.
         .voxels = world->voxels ? world->voxels : VOXELS_U8,
@@ -51,9 +52,11 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
     snprintf(text, PEL_VARIANT_BYTES,
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
-             "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d -DLIVE=%d",
+             "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d "
+             "-DGROUP_ROWS=%d -DLIVE=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
-             variant->jitter, variant->debug, variant->probe, variant->models, variant->live);
+             variant->jitter, variant->debug, variant->probe, variant->models, variant->group_rows,
+             variant->live);
 }

@@ -8,15 +8,16 @@ enum { PEL_VARIANT_BYTES = 512 };
 
 // Zero-initialise and fill: variants are compared by the text they are written as.
 struct pel_variant {
-    int lanes;    // rays per work-item
-    int reader;   // READER_*
-    int voxels;   // VOXELS_*
-    int filters;  // FILTERS_*
-    int mixing;   // MIXING_*
-    int models;   // MODELS_*
-    int skip;     // SKIP_*
-    int capacity; // parts: 1, 8 or WORLD_PART_MAX
-    bool shading; // some part is shaded
+    int lanes;      // rays per work-item
+    int group_rows; // packets above each other in a work-group
+    int reader;     // READER_*
+    int voxels;     // VOXELS_*
+    int filters;    // FILTERS_*
+    int mixing;     // MIXING_*
+    int models;     // MODELS_*
+    int skip;       // SKIP_*
+    int capacity;   // parts: 1, 8 or WORLD_PART_MAX
+    bool shading;   // some part is shaded
     bool table_linear;
     bool supersampling; // one of several rays of each pixel at a time
     bool jitter;        // every ray has a phase of its own

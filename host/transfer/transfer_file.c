@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/text.h"
 #include "transfer/transfer.h"
 #include "transfer/transfer_file_vtk.h"
@@ -45,6 +46,9 @@ bool pel_transfer_read_number(const json_t *json, double *number) {
 static const char *const known_keys[] = {"comment",      "preset",        "range",   "colours",
                                          "colors",       "opacities",     "points",  "scale",
                                          "opacity_unit", "interpolation", "entries", NULL};
+
+// In the order of their enum.
+static const char *const scales[] = {"absolute", "relative", "percentile", NULL};
 
 static bool check_keys(struct pel_transfer_reader *reader, const json_t *object) {
     // jansson's iterators take a plain pointer but only read.
@@ -225,7 +229,6 @@ static bool read_start(struct pel_transfer_reader *reader, const json_t *object)
 // "range" places relative values. A preset that is placed can take further curves in absolute
 // values, if "scale" says so; otherwise theirs are relative, too.
 static bool read_values(struct pel_transfer_reader *reader, const json_t *object) {
-    static const char *const scales[] = {"absolute", "relative", "percentile", NULL};
     struct pel_transfer *transfer = reader->transfer;
     bool preset = json_object_get(object, "preset") != NULL;
     const json_t *range = json_object_get(object, "range");
@@ -333,4 +336,77 @@ struct pel_transfer *pel_transfer_load(const char *path) {
     json_decref(json);
     free(text);
     return transfer;
+}
+
+// ---- Writing -----------------------------------------------------------------------------------
+
+// A colour as #rrggbb where that says it exactly, otherwise as three numbers of the row.
+static void write_colour(json_t *row, const double rgb[3]) {
+    char text[8] = "#";
+    bool exact = true;
+    for (int i = 0; i < 3; i++) {
+        int byte = (int)(rgb[i] * 255 + 0.5);
+        exact = exact && byte / 255.0 == rgb[i];
+        snprintf(text + 1 + 2 * i, 3, "%02x", (unsigned)byte & 0xff);
+    }
+    if (exact)
+        json_array_append_new(row, json_string(text));
+    for (int i = 0; !exact && i < 3; i++)
+        json_array_append_new(row, json_real(rgb[i]));
+}
+
+// One curve, or both in one list; NULL for the one that is not wanted.
+static json_t *write_curve(const struct pel_colour_point *colours,
+                           const struct pel_opacity_point *opacities, int count) {
+    json_t *rows = json_array();
+    for (int i = 0; i < count; i++) {
+        json_t *row = json_array();
+        json_array_append_new(row, json_real(colours ? colours[i].value : opacities[i].value));
+        if (colours)
+            write_colour(row, colours[i].rgb);
+        if (opacities)
+            json_array_append_new(row, json_real(opacities[i].opacity));
+        json_array_append_new(rows, row);
+    }
+    return rows;
+}
+
+static bool same_values(const struct pel_transfer *transfer) {
+    if (transfer->colour_count != transfer->opacity_count)
+        return false;
+    for (int i = 0; i < transfer->colour_count; i++)
+        if (transfer->colours[i].value != transfer->opacities[i].value)
+            return false;
+    return true;
+}
+
+json_t *pel_transfer_write(const struct pel_transfer *transfer) {
+    json_t *object = json_object();
+    if (same_values(transfer)) {
+        json_object_set_new(
+            object, "points",
+            write_curve(transfer->colours, transfer->opacities, transfer->colour_count));
+    } else {
+        json_object_set_new(object, "colours",
+                            write_curve(transfer->colours, NULL, transfer->colour_count));
+        json_object_set_new(object, "opacities",
+                            write_curve(NULL, transfer->opacities, transfer->opacity_count));
+    }
+    if (transfer->scale != PEL_VALUES_ABSOLUTE)
+        json_object_set_new(object, "scale", json_string(scales[transfer->scale]));
+    if (transfer->opacity_unit_mm != 1)
+        json_object_set_new(object, "opacity_unit", json_real(transfer->opacity_unit_mm));
+    if (transfer->nearest)
+        json_object_set_new(object, "interpolation", json_string("nearest"));
+    if (transfer->table_entries > 0)
+        json_object_set_new(object, "entries", json_integer(transfer->table_entries));
+    return object;
+}
+
+bool pel_transfer_save(const struct pel_transfer *transfer, const char *path) {
+    json_t *object = pel_transfer_write(transfer);
+    bool good = object ? pel_json_save(object, path, 100)
+                       : pel_fail(PEL_ERROR_MEMORY, "cannot allocate a transfer function's text");
+    json_decref(object);
+    return good;
 }

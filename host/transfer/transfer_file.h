@@ -14,4 +14,8 @@ struct json_t;
 // pel_text_locate takes it. It stays valid until this thread's next call.
 struct pel_transfer *pel_transfer_parse(const struct json_t *json, const char **bad_key);
 
+// The JSON that is parsed to the same transfer function, which must be a valid one: `points` where
+// both curves have the same values, two lists otherwise. The caller owns it; NULL (out of memory).
+struct json_t *pel_transfer_write(const struct pel_transfer *transfer);
+
 #endif

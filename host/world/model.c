@@ -35,6 +35,22 @@ static bool check_surfaces(const struct pel_instance *instance) {
     return true;
 }
 
+int pel_model_kernel(const struct pel_scene *scene) {
+    int models = scene->render.order == PEL_ORDER_BACK_TO_FRONT ? MODELS_BACKWARD : 0;
+    for (int k = 0; k < scene->instance_count; k++) {
+        enum pel_model model = pel_model_of(scene, &scene->instances[k]);
+        if (scene->instances[k].hidden)
+            continue;
+        if (model == PEL_MODEL_EMISSION)
+            return MODELS_EMISSION;
+        models |= model == PEL_MODEL_THESIS ? MODELS_THESIS
+                  : model == PEL_MODEL_ISO  ? MODELS_ISO
+                  : is_projection(model)    ? MODELS_PROJECTION
+                                            : 0;
+    }
+    return models;
+}
+
 bool pel_model_check(const struct pel_scene *scene) {
     const struct pel_render_settings *settings = &scene->render;
     if ((unsigned)settings->model > PEL_MODEL_THESIS ||
@@ -44,6 +60,9 @@ bool pel_model_check(const struct pel_scene *scene) {
     if (!(settings->emission_scale >= 0) || !isfinite(settings->emission_scale))
         return pel_fail(PEL_ERROR_ARGUMENT, "emission scale %g, must be at least 0",
                         settings->emission_scale);
+    if (settings->mixing == PEL_MIX_ORDERED && pel_model_kernel(scene) != 0)
+        return pel_fail(PEL_ERROR_ARGUMENT,
+                        "mixing ordered is for volumes of model absorption, front to back");
     const struct pel_instance *other = NULL;
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];
@@ -68,22 +87,6 @@ bool pel_model_check(const struct pel_scene *scene) {
         other = instance;
     }
     return true;
-}
-
-int pel_model_kernel(const struct pel_scene *scene) {
-    int models = scene->render.order == PEL_ORDER_BACK_TO_FRONT ? MODELS_BACKWARD : 0;
-    for (int k = 0; k < scene->instance_count; k++) {
-        enum pel_model model = pel_model_of(scene, &scene->instances[k]);
-        if (scene->instances[k].hidden)
-            continue;
-        if (model == PEL_MODEL_EMISSION)
-            return MODELS_EMISSION;
-        models |= model == PEL_MODEL_THESIS ? MODELS_THESIS
-                  : model == PEL_MODEL_ISO  ? MODELS_ISO
-                  : is_projection(model)    ? MODELS_PROJECTION
-                                            : 0;
-    }
-    return models;
 }
 
 bool pel_model_never_ends(const struct pel_scene *scene) {

@@ -1,11 +1,13 @@
-// scene_camera.c - the camera of a scene file. A named view is fitted first; whatever else is given
-// then replaces what the fit chose, so that `--set camera.fov=40` works on any scene.
+// scene_camera.c - the camera of a scene file, read and written. A named view is fitted first;
+// whatever else is given then replaces what the fit chose, so that `--set camera.fov=40` works on
+// any scene.
 #include "world/scene_plan.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "camera/camera.h"
+#include "world/scene_write.h"
 
 static const char *const camera_keys[] = {"comment", "view",  "fit", "eye",
                                           "target",  "up",    "fov", "orthographic",
@@ -65,6 +67,21 @@ bool pel_scene_read_camera(struct pel_camera_plan *plan, const struct pel_scene_
         return false;
     plan->view = view < 0 ? NULL : view_names[view];
     return true;
+}
+
+// A view and a fit are written as what they chose.
+void pel_scene_write_camera(struct pel_scene_writer *writer, json_t *root) {
+    const struct pel_camera *camera = &writer->scene->camera, *usual = &writer->usual->camera;
+    json_t *object = pel_write_object(writer, root, "camera");
+    pel_write_numbers(writer, object, "eye", 3, camera->eye);
+    pel_write_numbers(writer, object, "target", 3, camera->target);
+    if (memcmp(camera->up, usual->up, sizeof camera->up) != 0)
+        pel_write_numbers(writer, object, "up", 3, camera->up);
+    pel_write_number(writer, object, "fov", camera->fov_deg, usual->fov_deg);
+    pel_write_bool(writer, object, "orthographic", camera->orthographic, false);
+    pel_write_number(writer, object, "height", camera->height_mm, 0);
+    if (camera->shift[0] != 0 || camera->shift[1] != 0)
+        pel_write_numbers(writer, object, "shift", 2, camera->shift);
 }
 
 // What the camera is to see: one instance, all visible ones, or simply all when none is visible.

@@ -1,5 +1,7 @@
-// scene_read_light.c - the `lights` of a scene file and the `shading` of a volume.
+// scene_read_light.c - the `lights` of a scene file and the `shading` of a volume, read and
+// written.
 #include "world/scene_plan.h"
+#include "world/scene_write.h"
 
 static const char *const light_keys[] = {"comment", "kind",      "direction", "position",
                                          "colour",  "intensity", NULL};
@@ -65,6 +67,32 @@ bool pel_scene_read_lights(struct pel_scene *scene, const struct pel_scene_node 
     return true;
 }
 
+static void write_light(struct pel_scene_writer *writer, json_t *object,
+                        const struct pel_light *light) {
+    const double *colour = light->colour;
+    pel_write_name(writer, object, "kind", light_names, light->kind, PEL_LIGHT_HEADLIGHT);
+    if (light->kind == PEL_LIGHT_DIRECTIONAL)
+        pel_write_numbers(writer, object, "direction", 3, light->direction);
+    if (light->kind == PEL_LIGHT_POINT)
+        pel_write_numbers(writer, object, "position", 3, light->position);
+    if (colour[0] != 1 || colour[1] != 1 || colour[2] != 1)
+        pel_write_colour(writer, object, "colour", (double[4]){colour[0], colour[1], colour[2], 1},
+                         false);
+    pel_write_number(writer, object, "intensity", light->intensity, 1);
+}
+
+void pel_scene_write_lights(struct pel_scene_writer *writer, json_t *root) {
+    if (writer->scene->light_count == 0)
+        return;
+    json_t *lights = json_array();
+    pel_write_value(writer, root, "lights", lights);
+    for (int n = 0; n < writer->scene->light_count && !writer->failed; n++) {
+        json_t *light = json_object();
+        json_array_append_new(lights, light);
+        write_light(writer, light, &writer->scene->lights[n]);
+    }
+}
+
 bool pel_scene_read_material(struct pel_material *material, const struct pel_scene_node *volume) {
     struct pel_scene_node node;
     const struct pel_range shininess_range = {.low = 1, .high = PEL_SHININESS_MAX};
@@ -88,4 +116,24 @@ bool pel_scene_read_material(struct pel_material *material, const struct pel_sce
     material->shading = (enum pel_shading)(PEL_SHADING_BLINN_PHONG + model);
     material->one_sided = !two_sided;
     return true;
+}
+
+void pel_scene_write_material(struct pel_scene_writer *writer, json_t *volume,
+                              const struct pel_material *material) {
+    if (material->shading == PEL_SHADING_NONE)
+        return;
+    struct pel_material usual = pel_material_default(material->shading);
+    // Four zeros in memory are the usual numbers.
+    bool numbers = material->ambient != 0 || material->diffuse != 0 || material->specular != 0 ||
+                   material->shininess != 0;
+    json_t *object = pel_write_object(writer, volume, "shading");
+    pel_write_name(writer, object, "model", model_names,
+                   (int)material->shading - PEL_SHADING_BLINN_PHONG, 0);
+    if (numbers) {
+        pel_write_number(writer, object, "ambient", material->ambient, usual.ambient);
+        pel_write_number(writer, object, "diffuse", material->diffuse, usual.diffuse);
+        pel_write_number(writer, object, "specular", material->specular, usual.specular);
+        pel_write_number(writer, object, "shininess", material->shininess, usual.shininess);
+    }
+    pel_write_bool(writer, object, "two_sided", !material->one_sided, true);
 }

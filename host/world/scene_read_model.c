@@ -1,7 +1,9 @@
-// scene_read_model.c - how light is gathered: optical models, order and steps.
+// scene_read_model.c - how light is gathered, read and written: optical models, order and steps.
 #include "world/scene_plan.h"
 
 #include <math.h>
+
+#include "world/scene_write.h"
 
 static const char *const surface_keys[] = {"comment", "value", "colour", "opacity", NULL};
 
@@ -32,6 +34,19 @@ bool pel_scene_read_step(const struct pel_scene_node *object, double *step, doub
            pel_node_get_number(object, "step_mm", &pel_positive_number, step_mm);
 }
 
+static void write_optical_model(struct pel_scene_writer *writer, json_t *object,
+                                enum pel_model model) {
+    pel_write_name(writer, object, "model", optical_model_names, (int)model - PEL_MODEL_ABSORPTION,
+                   -1);
+}
+
+// Millimetres overrule voxels in memory, too.
+static void write_step(struct pel_scene_writer *writer, json_t *object, double step, double step_mm,
+                       double usual) {
+    pel_write_number(writer, object, "step", step_mm > 0 ? usual : step, usual);
+    pel_write_number(writer, object, "step_mm", step_mm, 0);
+}
+
 bool pel_scene_read_march(struct pel_render_settings *render, const struct pel_scene_node *node) {
     int order = (int)render->order;
     bool good = read_optical_model(&render->model, node) &&
@@ -41,6 +56,14 @@ bool pel_scene_read_march(struct pel_render_settings *render, const struct pel_s
                 pel_scene_read_step(node, &render->step, &render->step_mm);
     render->order = (enum pel_order)order;
     return good;
+}
+
+void pel_scene_write_march(struct pel_scene_writer *writer, json_t *object) {
+    const struct pel_render_settings *render = &writer->scene->render;
+    write_optical_model(writer, object, render->model);
+    pel_write_name(writer, object, "order", order_names, render->order, PEL_ORDER_FRONT_TO_BACK);
+    pel_write_number(writer, object, "emission_scale", render->emission_scale, 0);
+    write_step(writer, object, render->step, render->step_mm, writer->usual->render.step);
 }
 
 // A value by itself, or an object.
@@ -86,4 +109,25 @@ bool pel_scene_read_model(struct pel_instance *instance, const struct pel_scene_
             return false;
     }
     return true;
+}
+
+void pel_scene_write_model(struct pel_scene_writer *writer, json_t *volume,
+                           const struct pel_instance *instance) {
+    write_optical_model(writer, volume, instance->model);
+    write_step(writer, volume, instance->step, instance->step_mm, 0);
+    if (instance->surface_count == 0)
+        return;
+    json_t *list = json_array();
+    pel_write_value(writer, volume, "iso", list);
+    for (int n = 0; n < instance->surface_count && !writer->failed; n++) {
+        const struct pel_surface *surface = &instance->surfaces[n];
+        json_t *object = json_object();
+        json_array_append_new(list, object);
+        pel_write_value(writer, object, "value", pel_write_make_number(surface->value));
+        pel_write_number(writer, object, "opacity", surface->opacity, 1);
+        if (surface->coloured)
+            pel_write_colour(writer, object, "colour",
+                             (double[4]){surface->rgb[0], surface->rgb[1], surface->rgb[2], 1},
+                             false);
+    }
 }

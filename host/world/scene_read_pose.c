@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/math.h"
+#include "world/scene_write.h"
 
 static const char *const quaternion_keys[] = {"comment", "quaternion", "translation", NULL};
 static const char *const rotate_keys[] = {"comment", "rotate", "translate", NULL};
@@ -142,4 +143,16 @@ bool pel_scene_read_pose(struct pel_pose_plan *pose, const struct pel_scene_node
     if (pel_node_member(&member, &node, "rotate") || pel_node_member(&member, &node, "translate"))
         return read_rotate(pose, &node);
     return pel_node_fail(&node, "needs 'file', 'quaternion', 'rotate' or 'translate'");
+}
+
+// Whatever was read, a matrix is written: it alone comes back to the last bit.
+void pel_scene_write_pose(struct pel_scene_writer *writer, json_t *volume,
+                          const struct pel_matrix *transform) {
+    struct pel_matrix identity = pel_matrix_identity();
+    if (memcmp(transform, &identity, sizeof identity) == 0)
+        return;
+    json_t *rows = json_array();
+    for (int row = 0; row < 4; row++)
+        json_array_append_new(rows, pel_write_make_numbers(4, transform->m[row]));
+    pel_write_value(writer, volume, "transform", rows);
 }

@@ -1,5 +1,5 @@
 // scene_read_settings.c - the parts of a scene file that do not need its volumes: background,
-// render settings and output.
+// render settings and output, read and written.
 #include "world/scene_plan.h"
 
 #include <limits.h>
@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "world/bricks.h"
+#include "world/scene_write.h"
 
 enum { PICTURE_MAX = 32768 };
 
@@ -22,7 +23,6 @@ static const char *const supersampling_keys[] = {"comment", "n",        "pattern
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
 
 // In the order of their enums.
-static const char *const mixing_names[] = {"sum", "over", NULL};
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
 static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", "bvh", NULL};
 static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
@@ -104,6 +104,18 @@ static bool read_supersampling(struct pel_supersampling *supersampling,
     return good;
 }
 
+static void write_supersampling(struct pel_scene_writer *writer, json_t *render) {
+    const struct pel_supersampling *supersampling = &writer->scene->render.supersampling;
+    json_t *object = pel_write_object(writer, render, "supersampling");
+    pel_write_number(writer, object, "n", supersampling->n, 0);
+    pel_write_name(writer, object, "pattern", pattern_names, supersampling->pattern, 0);
+    pel_write_name(writer, object, "filter", reconstruction_names, supersampling->filter, 0);
+    pel_write_number(writer, object, "seed", supersampling->seed, 0);
+    pel_write_number(writer, object, "adaptive", supersampling->adaptive, 0);
+    if (json_object_size(object) == 0)
+        json_object_del(render, "supersampling");
+}
+
 static bool read_bricks(struct pel_brick_settings *bricks, const struct pel_scene_node *render) {
     struct pel_scene_node node, size;
     if (!pel_node_member(&node, render, "bricks"))
@@ -120,6 +132,15 @@ static bool read_bricks(struct pel_brick_settings *bricks, const struct pel_scen
     return pel_node_fail(&size, "must be 8, 16, 32, 64 or 128, not %d", bricks->size);
 }
 
+static void write_bricks(struct pel_scene_writer *writer, json_t *render) {
+    const struct pel_brick_settings *bricks = &writer->scene->render.bricks;
+    json_t *object = pel_write_object(writer, render, "bricks");
+    pel_write_number(writer, object, "size", bricks->size, 0);
+    pel_write_bool(writer, object, "cluster", !bricks->apart, true);
+    if (json_object_size(object) == 0)
+        json_object_del(render, "bricks");
+}
+
 static bool read_render(struct pel_render_settings *render, const struct pel_scene_node *scene) {
     struct pel_scene_node node;
     if (!pel_node_member(&node, scene, "render"))
@@ -129,7 +150,7 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
     int debug = (int)render->debug;
     bool good =
         pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
-        pel_node_get_name(&node, "mixing", mixing_names, &mixing) &&
+        pel_node_get_name(&node, "mixing", pel_mixing_names(), &mixing) &&
         pel_scene_read_march(render, &node) &&
         pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
         pel_node_get_number(&node, "termination", &termination_range, &render->termination) &&
@@ -143,6 +164,23 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
     render->skip = (enum pel_skip)skip;
     render->debug = (enum pel_debug)debug;
     return good;
+}
+
+static void write_render(struct pel_scene_writer *writer, json_t *scene) {
+    const struct pel_render_settings *render = &writer->scene->render;
+    const struct pel_render_settings *usual = &writer->usual->render;
+    json_t *object = pel_write_object(writer, scene, "render");
+    pel_write_numbers(writer, object, "size", 2, (double[]){render->width, render->height});
+    pel_write_name(writer, object, "mixing", pel_mixing_names(), render->mixing, usual->mixing);
+    pel_scene_write_march(writer, object);
+    pel_write_number(writer, object, "phase", render->phase, usual->phase);
+    pel_write_number(writer, object, "termination", render->termination, usual->termination);
+    pel_write_name(writer, object, "origin", origin_names, render->origin, usual->origin);
+    pel_write_name(writer, object, "skip", skip_names, render->skip, usual->skip);
+    write_bricks(writer, object);
+    write_supersampling(writer, object);
+    pel_write_bool(writer, object, "jitter", render->jitter, false);
+    pel_write_name(writer, object, "debug", debug_names, render->debug, PEL_DEBUG_NONE);
 }
 
 static bool read_output_file(struct pel_output_settings *output,
@@ -183,8 +221,29 @@ static bool read_output(struct pel_output_settings *output, const struct pel_sce
     return true;
 }
 
+static void write_output(struct pel_scene_writer *writer, json_t *scene) {
+    const struct pel_output_settings *output = &writer->scene->output;
+    json_t *object = pel_write_object(writer, scene, "output");
+    if (strcmp(output->path, "-") == 0)
+        pel_write_text(writer, object, "file", "-");
+    else if (*output->path)
+        pel_write_path(writer, object, "file", output->path);
+    pel_write_number(writer, object, "depth", output->depth, writer->usual->output.depth);
+    pel_write_name(writer, object, "alpha", alpha_names, output->premultiplied, 0);
+    if (json_object_size(object) == 0)
+        json_object_del(scene, "output");
+}
+
 bool pel_scene_read_settings(struct pel_scene *scene, const struct pel_scene_node *node) {
     return pel_scene_read_colour(scene->background, node, "background") &&
            pel_scene_read_lights(scene, node) && read_render(&scene->render, node) &&
            read_output(&scene->output, node);
+}
+
+void pel_scene_write_settings(struct pel_scene_writer *writer, json_t *root) {
+    const double *background = writer->scene->background;
+    if (memcmp(background, writer->usual->background, sizeof writer->usual->background) != 0)
+        pel_write_colour(writer, root, "background", background, true);
+    write_render(writer, root);
+    write_output(writer, root);
 }

@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "world/scene_write.h"
 
 static const char *const raw_keys[] = {"comment", "dims",   "type",   "spacing",
                                        "origin",  "offset", "endian", NULL};
@@ -170,4 +171,49 @@ bool pel_scene_read_source(struct pel_volume_plan *plan, const struct pel_scene_
         if (pel_node_member(&member, node, only_files[i]))
             return pel_node_fail(&member, "applies to files only");
     return has_generate ? read_generate(plan, &generate) : read_hypertexture(plan, &hypertexture);
+}
+
+static void write_raw(struct pel_scene_writer *writer, json_t *volume,
+                      const struct pel_load_options *load) {
+    json_t *raw = pel_write_object(writer, volume, "raw");
+    const double dims[3] = {load->raw.dims[0], load->raw.dims[1], load->raw.dims[2]};
+    pel_write_numbers(writer, raw, "dims", 3, dims);
+    pel_write_name(writer, raw, "type", type_names, load->raw.type, PEL_VOXEL_U8);
+    if (load->raw.spacing[0] > 0)
+        pel_write_numbers(writer, raw, "spacing", 3, load->raw.spacing);
+    if (load->raw.origin[0] != 0 || load->raw.origin[1] != 0 || load->raw.origin[2] != 0)
+        pel_write_numbers(writer, raw, "origin", 3, load->raw.origin);
+    pel_write_number(writer, raw, "offset", (double)load->raw.offset, 0);
+    pel_write_name(writer, raw, "endian", endian_names, load->raw.big_endian, 0);
+}
+
+static void write_generate(struct pel_scene_writer *writer, json_t *volume,
+                           const struct pel_volume_source *source) {
+    const struct pel_generate_options *options = &source->generate;
+    json_t *generate = pel_write_object(writer, volume, "generate");
+    int type = 0;
+    while (type < 2 && generate_types[type] != options->type)
+        type++;
+    pel_write_text(writer, generate, "kind", source->kind);
+    pel_write_number(writer, generate, "size", options->size, 0);
+    pel_write_number(writer, generate, "spacing", options->spacing_mm, 0);
+    pel_write_name(writer, generate, "type", generate_type_names, type, 0);
+    pel_write_bool(writer, generate, "second", options->second, false);
+}
+
+void pel_scene_write_source(struct pel_scene_writer *writer, json_t *volume,
+                            const struct pel_volume_source *source) {
+    if (!source->file) {
+        write_generate(writer, volume, source);
+    } else {
+        const struct pel_load_options *load = &source->load;
+        pel_write_path(writer, volume, "file", source->file);
+        if (load->raw.dims[0] > 0)
+            write_raw(writer, volume, load);
+        pel_write_number(writer, volume, "time", load->time, 0);
+        // The key alone says that channels are taken apart.
+        pel_write_number(writer, volume, "channel", load->channel, load->split_channels ? -1 : 0);
+    }
+    if (source->spacing[0] > 0)
+        pel_write_numbers(writer, volume, "spacing", 3, source->spacing);
 }

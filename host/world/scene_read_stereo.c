@@ -1,5 +1,6 @@
-// scene_read_stereo.c - the `stereo` of a scene file: how two eyes see it.
+// scene_read_stereo.c - the `stereo` of a scene file, read and written: how two eyes see it.
 #include "world/scene_plan.h"
+#include "world/scene_write.h"
 
 static const char *const stereo_keys[] = {"comment", "kind",   "separation", "convergence",
                                           "swap",    "toe_in", "matrix",     NULL};
@@ -67,4 +68,29 @@ bool pel_scene_read_stereo(struct pel_scene *scene, const struct pel_scene_node 
     stereo->kind = (enum pel_stereo_kind)kind;
     stereo->flat = separated && stereo->separation_mm == 0;
     return read_matrix(stereo, &node) && check_size(scene, &node);
+}
+
+void pel_scene_write_stereo(struct pel_scene_writer *writer, json_t *root) {
+    const struct pel_stereo *stereo = &writer->scene->stereo;
+    bool matrix = false;
+    for (int i = 0; i < 18; i++)
+        matrix = matrix || stereo->matrix[i / 6][i % 6] != 0;
+    json_t *object = pel_write_object(writer, root, "stereo");
+    pel_write_name(writer, object, "kind", pel_stereo_names(), stereo->kind, PEL_STEREO_NONE);
+    // A separation of 0 is written for flat stereo alone; in memory it means automatic.
+    if (stereo->flat)
+        pel_write_value(writer, object, "separation", json_integer(0));
+    else
+        pel_write_number(writer, object, "separation", stereo->separation_mm, 0);
+    pel_write_number(writer, object, "convergence", stereo->convergence_mm, 0);
+    pel_write_bool(writer, object, "swap", stereo->swap, false);
+    pel_write_bool(writer, object, "toe_in", stereo->toe_in, false);
+    if (matrix || stereo->kind == PEL_STEREO_MATRIX) {
+        json_t *rows = json_array();
+        for (int row = 0; row < 3; row++)
+            json_array_append_new(rows, pel_write_make_numbers(6, stereo->matrix[row]));
+        pel_write_value(writer, object, "matrix", rows);
+    }
+    if (json_object_size(object) == 0)
+        json_object_del(root, "stereo");
 }

@@ -1,5 +1,5 @@
 // scene_read_volume.c - the `volumes` of a scene file, as far as they can be read without loading
-// any of them.
+// any of them; and written.
 #include "world/scene_plan.h"
 
 #include <stdlib.h>
@@ -8,13 +8,15 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "transfer/transfer_file.h"
 #include "world/scene.h"
+#include "world/scene_write.h"
 
 static const char *const volume_keys[] = {
-    "comment", "file",    "hypertexture", "generate",  "raw",      "time",    "channel",
-    "name",    "visible", "spacing",      "transform", "transfer", "density", "extent",
-    "filter",  "palette", "opacity_unit", "shading",   "step",     "step_mm", "model",
-    "iso",     NULL};
+    "comment", "file",    "hypertexture", "generate", "raw",          "time",
+    "channel", "name",    "visible",      "spacing",  "transform",    "transfer",
+    "density", "extent",  "filter",       "palette",  "opacity_unit", "shading",
+    "step",    "step_mm", "model",        "iso",      "priority",     NULL};
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};
@@ -86,6 +88,7 @@ static bool read_volume(struct pel_instance *instance, struct pel_volume_plan *p
         !pel_scene_read_step(node, &instance->step, &instance->step_mm) ||
         !pel_scene_read_model(instance, node) ||
         !pel_scene_read_material(&instance->material, node) ||
+        !pel_node_get_number(node, "priority", &pel_any_number, &instance->priority) ||
         !pel_node_get_name(node, "extent", extent_names, &extent) ||
         !pel_node_get_name(node, "filter", filter_names, &filter))
         return false;
@@ -94,6 +97,34 @@ static bool read_volume(struct pel_instance *instance, struct pel_volume_plan *p
     instance->extent = (enum pel_extent)extent;
     instance->filter = (enum pel_filter)filter;
     return true;
+}
+
+// A transfer function is written as it was resolved, so neither preset nor palette nor unit is
+// needed beside it.
+static void write_volume(struct pel_scene_writer *writer, json_t *volume,
+                         const struct pel_instance *instance) {
+    const struct pel_scene *scene = writer->scene;
+    const struct pel_volume_source *source = &scene->sources[instance->volume];
+    if (!source->file && !source->kind && !writer->failed) {
+        writer->failed = true;
+        pel_fail(PEL_ERROR_ARGUMENT, "volume '%s' came from no file that a scene could name",
+                 instance->name);
+        return;
+    }
+    struct pel_instance usual = pel_instance_default();
+    // Label maps are nearest unless they say otherwise, so theirs is always said.
+    int usual_filter = scene->volumes[instance->volume]->labels ? -1 : (int)usual.filter;
+    pel_write_text(writer, volume, "name", instance->name);
+    pel_scene_write_source(writer, volume, source);
+    pel_write_bool(writer, volume, "visible", !instance->hidden, true);
+    pel_scene_write_pose(writer, volume, &instance->transform);
+    pel_write_value(writer, volume, "transfer", pel_transfer_write(instance->transfer));
+    pel_write_number(writer, volume, "density", instance->density, usual.density);
+    pel_write_number(writer, volume, "priority", instance->priority, usual.priority);
+    pel_scene_write_model(writer, volume, instance);
+    pel_scene_write_material(writer, volume, &instance->material);
+    pel_write_name(writer, volume, "extent", extent_names, instance->extent, usual.extent);
+    pel_write_name(writer, volume, "filter", filter_names, instance->filter, usual_filter);
 }
 
 // An FSL matrix refers to another volume, which may come later in the list.
@@ -140,6 +171,16 @@ bool pel_scene_read_volumes(struct pel_scene *scene, struct pel_scene_plan *plan
         if (!read_fixed(scene, &plan->volume[i], (int)i) || !read_object(scene, plan, (int)i))
             return false;
     return true;
+}
+
+void pel_scene_write_volumes(struct pel_scene_writer *writer, json_t *root) {
+    json_t *volumes = json_array();
+    pel_write_value(writer, root, "volumes", volumes);
+    for (int i = 0; i < writer->scene->instance_count && !writer->failed; i++) {
+        json_t *volume = json_object();
+        json_array_append_new(volumes, volume);
+        write_volume(writer, volume, &writer->scene->instances[i]);
+    }
 }
 
 void pel_scene_plan_finish(struct pel_scene_plan *plan) {

@@ -12,6 +12,7 @@
 #include "camera/camera.h"
 #include "world/brick.h"
 #include "world/lighting.h"
+#include "world/mixing.h"
 #include "world/model.h"
 #include "world/step.h"
 #include "world/strength.h"
@@ -180,6 +181,13 @@ static bool count_visible(struct pel_world *world, const u32 *start, size_t entr
     return true;
 }
 
+// The length that one sample of the instance stands for.
+static double sample_mm(const struct pel_world *world, const struct pel_scene *scene,
+                        const struct pel_instance *instance) {
+    return world->mixing == MIXING_ORDERED ? pel_step_of_instance(scene, instance)
+                                           : world->bytes.step_mm;
+}
+
 // Appends the instance's table to the world's and lets `part` refer to it.
 static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_layout *layout, const struct pel_instance *instance,
@@ -193,7 +201,8 @@ static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
         return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
     world->tables = tables;
     u32 *start = tables + world->table_words;
-    struct pel_strength_rule rule = {.step_mm = world->bytes.step_mm, .depth = world->depth};
+    struct pel_strength_rule rule = {.step_mm = sample_mm(world, scene, instance),
+                                     .depth = world->depth};
     pel_model_fill_rule(&rule, scene, instance);
     pel_strength_write(start, table, refinement, &rule);
     memcpy(start + (entries - 1) * PEL_STRENGTH_WORDS, start + (entries - 2) * PEL_STRENGTH_WORDS,
@@ -215,7 +224,7 @@ static bool build_tables(struct pel_table *tables, struct pel_world *world,
             continue;
         if (!pel_table_build(&tables[k], instance->transfer, scene->volumes[instance->volume]))
             return pel_fail_in("volume '%s'", instance->name);
-        struct pel_strength_rule rule = {.step_mm = world->bytes.step_mm};
+        struct pel_strength_rule rule = {.step_mm = sample_mm(world, scene, instance)};
         pel_model_fill_rule(&rule, scene, instance);
         if (!pel_strength_is_gentle(&tables[k], &rule))
             world->table_linear = true;
@@ -293,6 +302,8 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (!fill_filter(&pattern, instance))
             return false;
         pattern.step_mm = (float)pel_step_of_instance(scene, instance);
+        if (world->models & MODELS_EMISSION)
+            pattern.filter = FILTERS_NEAREST;
         world->filters |= pattern.filter;
         if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
             return false;
@@ -301,6 +312,10 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
                                  count_slabs(layout, instance)))
             return pel_fail_in("volume '%s'", instance->name);
         world->shaded |= pattern.shading != SHADING_NONE;
+        pattern.rank = (float)pel_mixing_rank(scene, instance);
+        // Only media are mixed.
+        pattern.medium =
+            pattern.model == MODEL_ABSORPTION ? world->bytes.medium_count++ : MEDIUM_NONE;
         if (!fill_parts(world, scene, layout, instance, &pattern, centre))
             return false;
     }
@@ -327,16 +342,16 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     world->supersampling = !scene->render.debug && is_supersampled(&scene->render.supersampling);
     world->jitter = scene->render.jitter;
     world->models = pel_model_kernel(scene);
-    world->mixing = scene->render.mixing == PEL_MIX_SUM ? MIXING_SUM : MIXING_OVER;
-    struct pel_table tables[PEL_VOLUME_MAX] = {{0}};
-    bool good = build_tables(tables, world, scene);
     // A volume on its own, or one blended at a time, is looked up as opacity; slabs of one count as
     // several.
     int parts = 0;
     for (int k = 0; k < scene->instance_count; k++)
         if (!scene->instances[k].hidden)
             parts += count_slabs(layout, &scene->instances[k]);
-    world->depth = world->mixing == MIXING_SUM && parts > 1;
+    world->mixing = parts > 1 ? pel_mixing_find(scene->render.mixing) : MIXING_SUM;
+    world->depth = parts > 1 && world->mixing != MIXING_OVER && world->mixing != MIXING_ORDERED;
+    struct pel_table tables[PEL_VOLUME_MAX] = {{0}};
+    bool good = build_tables(tables, world, scene);
     good = good && fill_instances(world, scene, layout, tables, centre);
     for (int k = 0; k < PEL_VOLUME_MAX; k++)
         pel_table_finish(&tables[k]);

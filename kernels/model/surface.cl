@@ -88,7 +88,7 @@ INLINE mask gather_surfaces(__constant struct world *world, MEMORY_PARAMETERS,
             const struct cursor *cursor = spot->cursor;
             const real t = find_surface(MEMORY_ARGUMENTS, spot, before, value);
             shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
-                  SAMPLE_NUMBER(crossing, t), cursor->ox + t * cursor->dx,
+                  SAMPLE_NUMBER(crossing, spot->c, t), cursor->ox + t * cursor->dx,
                   cursor->oy + t * cursor->dy, cursor->oz + t * cursor->dz, value, &r, &g, &b);
         }
 #endif

@@ -9,6 +9,15 @@
 // MIXING: how volumes that overlap share a sample (docs/picture.md).
 #define MIXING_OVER 0
 #define MIXING_SUM 1
+#define MIXING_ORDERED 2
+#define MIXING_MAX 3
+#define MIXING_PRIORITY 4
+#define MIXING_UNION 5
+#define MIXING_INTERSECTION 6
+#define MIXING_DIFFERENCE 7
+
+// Of a part that is not mixed with others: its model is none of absorption.
+#define MEDIUM_NONE (-1)
 
 // VOXELS: which classes of voxels occur, one bit each. Signed integers are stored with their sign bit
 // flipped, as unsigned ones; RGB is stored as RGBA with the luminance as alpha.

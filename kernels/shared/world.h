@@ -69,8 +69,9 @@ struct part {
     float step_mm;              // the distance of its samples where it has a grid of its own
     float density;              //
     i32 number;                 // of the part
+    float rank;                 // of its priority among the visible instances'
+    i32 medium;                 // which of the media that are mixed, or MEDIUM_NONE
     i32 recipe;                 // 1 + number of what is worked out at every sample; 0: there are voxels
-    i32 pad[2];
 };
 
 SHARED_ASSERT(sizeof(struct part) == 336, part_size);
@@ -93,7 +94,7 @@ struct world {
     float contrast;     // between neighbours, beyond which a pixel takes all its rays; 0: all do
     i32 lamp_count;
     i32 debug; // one of DEBUG_*
-    i32 pad[1];
+    i32 medium_count; // instances that are mixed
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
 };

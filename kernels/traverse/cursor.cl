@@ -31,11 +31,11 @@ INLINE integer sample_at(real t, real t_near, ray_phase phase, float per_mm) {
     return TO_INTEGER(clamp(number, 0.0f, 1e9f));
 }
 
-// Places the cursor at the start of the part.
+// Places the cursor at the start of the part, whose samples are `step_mm` apart.
 INLINE struct cursor cursor_begin(__constant struct world *world, __constant struct part *part,
                                   const struct ray *ray_voxel, const struct span *span,
-                                  real t_near) {
-    const float per_mm = 1.0f / world->step_mm;
+                                  real t_near, float step_mm) {
+    const float per_mm = 1.0f / step_mm;
     // A short span may lie between two samples: then there is nothing to show either.
     const ray_phase phase = RAY_PHASE(world, ray_voxel);
     const integer first = sample_at(span->near, t_near, phase, per_mm);
@@ -49,15 +49,15 @@ INLINE struct cursor cursor_begin(__constant struct world *world, __constant str
     cursor.inside = (integer)(0);
 #endif
 
-    const real t_first = t_near + phase * world->step_mm;
+    const real t_first = t_near + phase * step_mm;
     const float4 shift = part->memory_from_voxel;
     const real zero = (real)(0.0f), one = (real)(1.0f);
     cursor.ox = CHOOSE(one, ray_voxel->ox + t_first * ray_voxel->dx + shift.x, runs);
     cursor.oy = CHOOSE(one, ray_voxel->oy + t_first * ray_voxel->dy + shift.y, runs);
     cursor.oz = CHOOSE(one, ray_voxel->oz + t_first * ray_voxel->dz + shift.z, runs);
-    cursor.dx = CHOOSE(zero, world->step_mm * ray_voxel->dx, runs);
-    cursor.dy = CHOOSE(zero, world->step_mm * ray_voxel->dy, runs);
-    cursor.dz = CHOOSE(zero, world->step_mm * ray_voxel->dz, runs);
+    cursor.dx = CHOOSE(zero, step_mm * ray_voxel->dx, runs);
+    cursor.dy = CHOOSE(zero, step_mm * ray_voxel->dy, runs);
+    cursor.dz = CHOOSE(zero, step_mm * ray_voxel->dz, runs);
     return cursor;
 }
 

@@ -87,6 +87,15 @@ check_lines task.json '[c["lanes"] for c in x if c["name"].endswith(("lane", "la
 check_lines task.json 'len(x) == 31 and "baseline" not in x[24] and all(c["baseline"] == 25 for c in x[25:])'
 expect 2 '^pellucid: --peer mute: never gave a time: its last line' bench task --size 16x12 --frames 1 --peer 'mute=echo hello'
 
+# A sweep narrowed to one kernel, and the thesis's tables with its figures and ours.
+expect 0 '^\| *3 \| 4 work-items in 4 rows ' bench workgroup --lanes 1 --work-group 4 --size 16x12 --frames 1 --json groups.json
+check_lines groups.json '[c["work_group_rows"] for c in x] == [1, 2, 4] and all(c["work_group"] == 4 and c["kernel_max_work_group"] >= 4 for c in x)'
+expect 0 '\| published fps \|' bench thesis --size 16x12 --frames 1 --largest 16 --json thesis.json --plot thesis.svg
+check_lines thesis.json 'sorted({c["name"].split()[0] for c in x}) == ["6.1", "6.10", "6.11", "6.3", "6.4", "6.5", "6.6", "6.7", "6.8", "6.9"]'
+check_lines thesis.json 'all(c["published_fps"] > 0 and c["median_ms"] > 0 for c in x)'
+python3 -c 'import xml.dom.minidom as m; n = len(m.parse("thesis.svg").getElementsByTagName("rect")); assert n == 38, n' ||
+    complain "the plot is not a bar for each case"
+
 # Nothing is left behind.
 [ -z "$(find . -name '*.[0-9]*')" ] || complain "temporaries are left: $(ls)"
 exit $failed

@@ -1,7 +1,9 @@
 // model.c - optical models on the device, against the reference and against each other.
 #include <math.h>
 
-#include "reference/reference.h"
+#include "base/math.h"
+#include "reference/ray.h"
+#include "support/near.h"
 #include "support/judge.h"
 #include "support/picture.h"
 #include "support/scenes.h"
@@ -45,9 +47,53 @@ static void test_models(void **state) {
     pel_renderer_destroy(renderer);
 }
 
+// A box of constant colour, however it lies, shines by the length of the ray in it; and without
+// steps there is no error but rounding's.
+static void test_emission(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, judge_packet_lanes());
+    struct pel_scene *scene = scene_of_two();
+    scene->render.model = PEL_MODEL_EMISSION;
+    pel_image_destroy(judge_render(renderer, scene, NULL, "emission"));
+    pel_scene_destroy(scene);
+
+    scene = scene_create(24, 16);
+    const int dims[3] = {7, 9, 5};
+    struct pel_volume *volume = scene_volume_constant(dims, PEL_VOXEL_U8, 200);
+    scene_place(volume, (double[]){1.5, 2, 3}, (double[]){0.3, -0.2, 0.5, 0.7}, (double[]){1, 2, 3},
+                false);
+    scene_add(scene, volume, scene_transfer_constant((double[]){1, 0.5, 0.25, 0}));
+    scene->render.model = PEL_MODEL_EMISSION;
+    scene->render.emission_scale = 0.03;
+    struct pel_render_statistics statistics;
+    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, &statistics);
+    assert_non_null(picture);
+    assert_int_equal(statistics.skip, PEL_SKIP_NONE);
+    struct pel_matrix inverse;
+    const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {6.5, 8.5, 4.5};
+    assert_true(pel_matrix_invert(&inverse, &volume->world_from_voxel));
+    double most = 0;
+    for (int i = 0; i < 24 * 16; i++) {
+        struct reference_ray ray = reference_camera_ray(&scene->camera, 24, 16, i % 24, i / 24);
+        struct reference_ray own = reference_map_ray(&inverse, &ray);
+        struct reference_span span = reference_clip(&own, low, high);
+        double chord = fmax(span.t_out - span.t_in, 0);
+        most = fmax(most, chord);
+        const float *rgba = &picture->rgba[4 * i];
+        assert_near(rgba[0], 0.03 * chord, 1e-4);
+        assert_near(rgba[1], 0.015 * chord, 6e-4); // colours have ten bits
+        assert_near(rgba[3], 0, 0);
+    }
+    assert_true(most > 15);
+    pel_image_destroy(picture);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_models),
+        cmocka_unit_test(test_emission),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,9 @@
 // scenes.c - every scene of scenes/ is a picture test: rendered small, it has to agree with the
-// reference. The scenes take the ways to skip in turns.
+// reference. The scenes take the ways to skip in turns. Saved, each is the same picture.
 #include <dirent.h>
 
 #include "support/judge.h"
+#include "support/picture.h"
 #include "support/scenes.h"
 #include "support/test.h"
 #include "support/ways.h"
@@ -25,6 +26,21 @@ static struct pel_scene *load_small(const char *name) {
     return scene;
 }
 
+// A scene that was saved renders to the same bytes.
+static void check_saved(struct pel_renderer *renderer, const struct pel_scene *scene,
+                        const struct pel_image *expected, const char *title) {
+    const char *path = test_temporary_path("saved.json");
+    if (!pel_scene_save(scene, path))
+        fail_msg("%s: %s", title, pel_error_message());
+    struct pel_scene *saved = pel_scene_load(path, NULL, 0);
+    struct pel_image *picture = saved ? pel_renderer_render(renderer, saved, NULL, NULL) : NULL;
+    if (!picture)
+        fail_msg("%s: %s", title, pel_error_message());
+    assert_pictures_equal(picture, expected, title);
+    pel_image_destroy(picture);
+    pel_scene_destroy(saved);
+}
+
 static void test_scenes(void **state) {
     (void)state;
     struct dirent **entries;
@@ -37,7 +53,10 @@ static void test_scenes(void **state) {
         struct pel_scene *scene = load_small(entries[i]->d_name);
         struct pel_render_statistics statistics;
         scene->render.skip = way_of((uint64_t)i + 1);
-        pel_image_destroy(judge_render(buffers, scene, &statistics, entries[i]->d_name));
+        struct pel_image *picture = judge_render(buffers, scene, &statistics, entries[i]->d_name);
+        if (!scene_is_small())
+            check_saved(buffers, scene, picture, entries[i]->d_name);
+        pel_image_destroy(picture);
         assert_true(statistics.samples > 0);
         has_images = i > 0 ? has_images : judge_has_images(images, scene);
         if (has_images)

@@ -7,13 +7,17 @@
 //
 // Both terms in the brackets lie in [0, m T(s)] where m is the brightest colour, 1 but for shading,
 // so |dC| <= integral of m T |de| + T e |dc|, and the same for the opacity with c = 1. Along the
-// ray de and dc are taken as the greatest change over the values the sample may have had.
+// ray de and dc are taken as the greatest change over the values the sample may have had. What
+// mixing makes of several media has no more than twice the sum of their changes, as minima, maxima,
+// differences and means have none of their own; but where one medium hides the others and it is
+// uncertain which, all that is there is.
 #include "reference/reference.h"
 
 #include <math.h>
 
 #include "base/math.h"
 #include "reference/model.h"
+#include "reference/mix.h"
 #include "reference/path.h"
 #include "reference/shade.h"
 
@@ -109,11 +113,6 @@ static double spacing_along(const struct reference_body *body, int axis) {
     return pel_length((double[]){matrix->m[0][axis], matrix->m[1][axis], matrix->m[2][axis]});
 }
 
-static double rounding_mm(const struct reference *reference, double t,
-                          const struct reference_errors *errors) {
-    return errors->rounding * (t + pel_length(reference->scene->camera.eye));
-}
-
 // The brightest colour there may be, at least 1.
 static double brightest(const struct reference *reference) {
     double greatest = 1;
@@ -122,41 +121,108 @@ static double brightest(const struct reference *reference) {
     return greatest;
 }
 
-// Adds what body k has at t to `*extinction`, and what may be wrong about it, per millimetre, to
-// `*wrong`.
-static void add_body(double *extinction, double *wrong, const struct reference *reference,
-                     const struct reference_path *path, int k, double t,
-                     const struct reference_errors *errors) {
-    const struct reference_body *body = &reference->bodies[k];
-    struct reference_span span = path->spans[k];
-    double slack_mm = rounding_mm(reference, t, errors);
-    if (span.t_in >= span.t_out || t < span.t_in - slack_mm || t >= span.t_out + slack_mm)
-        return;
+// What one body has at a stop, and what may be wrong about it: extinctions, per millimetre.
+struct doubt {
+    struct reference_medium medium;
+    double wrong;
+    double low, high; // between these its extinction is seen by a kernel, whose tables have entries
+};
 
-    double p_voxel[3], reach_voxel = 0;
-    reference_point_at(p_voxel, &path->rays[k], t);
+// A kernel reads tables of up to 4096 entries at the nearest one.
+static void find_range(struct doubt *doubt, const struct reference_body *body,
+                       const struct reference_sample *sample, double reach) {
+    enum { STEPS = 4 };
+    reach += (body->table.high - body->table.low) / 4095;
+    for (int n = -STEPS; n <= STEPS; n++) {
+        struct reference_sample moved = *sample;
+        moved.value += reach * n / STEPS;
+        struct reference_medium medium = reference_classify(body->instance, &body->table, &moved);
+        doubt->low = fmin(doubt->low, medium.extinction);
+        doubt->high = fmax(doubt->high, medium.extinction);
+    }
+}
+
+static struct doubt doubt_body(const struct spot *spot, int k, const struct reference_span *span,
+                               double slack_mm, const struct reference_errors *errors) {
+    const struct reference_body *body = spot->body;
+    const struct reference *reference = spot->reference;
+    double p_voxel[3], reach_voxel = 0, t = spot->t;
+    reference_point_at(p_voxel, &spot->path->rays[k], t);
     for (int axis = 0; axis < 3; axis++)
         reach_voxel = fmax(reach_voxel, slack_mm / spacing_along(body, axis));
 
-    const struct spot spot = {reference, path, body, t};
+    struct doubt doubt = {.low = 0};
     struct reference_sample sample;
-    struct reference_medium medium;
     struct change change = {0};
-    medium_at(&medium, &spot, p_voxel);
+    medium_at(&doubt.medium, spot, p_voxel);
+    doubt.medium.body = k;
+    doubt.medium.priority = body->instance->priority;
+    doubt.medium.step_mm = reference_sample_mm(reference, k);
+    doubt.low = doubt.high = doubt.medium.extinction;
     if (reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel)) {
         double reach = value_reach(body, sample.spread, sample.value, reach_voxel, errors);
         widen_by_value(&change, body, &sample, reach);
+        find_range(&doubt, body, &sample, reach);
         // A volume's own colours are interpolated too, each over its whole range at most.
         if (sample.coloured)
             change.colour = fmax(change.colour, 3 * errors->weight + errors->value / 255);
-        widen_by_shade(&change, &spot, &sample, p_voxel, reach_voxel, errors);
+        widen_by_shade(&change, spot, &sample, p_voxel, reach_voxel, errors);
     }
-    widen_by_place(&change, &spot, &medium, p_voxel, reach_voxel);
+    widen_by_place(&change, spot, &doubt.medium, p_voxel, reach_voxel);
+    doubt.low = fmax(0, fmin(doubt.low, doubt.medium.extinction - change.extinction));
+    doubt.high = fmax(doubt.high, doubt.medium.extinction + change.extinction);
+    doubt.wrong =
+        change.extinction * brightest(reference) + doubt.medium.extinction * change.colour;
+    if (fabs(t - span->t_in) <= slack_mm || fabs(t - span->t_out) <= slack_mm) {
+        doubt.wrong += doubt.medium.extinction * brightest(reference);
+        doubt.low = 0;
+    }
+    return doubt;
+}
 
-    *extinction += medium.extinction;
-    *wrong += change.extinction * brightest(reference) + medium.extinction * change.colour;
-    if (fabs(t - span.t_in) <= slack_mm || fabs(t - span.t_out) <= slack_mm)
-        *wrong += medium.extinction * brightest(reference);
+// True when it is uncertain which of the media hides the others.
+static bool is_contested(const struct doubt *doubts, int count, bool by_priority) {
+    for (int a = 0; a < count; a++) {
+        for (int b = 0; b < count; b++) {
+            if (a == b || doubts[a].high == 0 || doubts[b].high == 0)
+                continue;
+            // Whether the more important one is there, or which is the greater.
+            bool above = doubts[a].medium.priority > doubts[b].medium.priority ||
+                         (doubts[a].medium.priority == doubts[b].medium.priority && a < b);
+            if (by_priority ? above && doubts[a].low == 0
+                            : doubts[a].high >= doubts[b].low && doubts[b].high >= doubts[a].low)
+                return true;
+        }
+    }
+    return false;
+}
+
+// What may be wrong, as an optical depth, about the media of one stop together.
+static double mixed_wrong(const struct reference *reference, const struct doubt *doubts,
+                          int count) {
+    enum pel_mixing mixing = reference->scene->render.mixing;
+    bool simple = mixing == PEL_MIX_SUM || mixing == PEL_MIX_OVER || mixing == PEL_MIX_ORDERED;
+    double wrong = 0, greatest = 0;
+    for (int n = 0; n < count; n++) {
+        double step_mm = doubts[n].medium.step_mm;
+        wrong += (simple ? 1 : 2) * doubts[n].wrong * step_mm;
+        greatest = fmax(greatest, doubts[n].high * step_mm);
+    }
+    bool winner = mixing == PEL_MIX_MAX || mixing == PEL_MIX_PRIORITY;
+    if (winner && is_contested(doubts, count, mixing == PEL_MIX_PRIORITY))
+        wrong += greatest * brightest(reference);
+    return wrong;
+}
+
+// The optical depth of the media of one stop together.
+static double mixed_depth(const struct reference *reference, const struct doubt *doubts,
+                          int count) {
+    struct reference_medium media[PEL_VOLUME_MAX];
+    double layer[4];
+    for (int n = 0; n < count; n++)
+        media[n] = doubts[n].medium;
+    reference_mix(layer, reference->scene->render.mixing, media, count, reference->body_count);
+    return -log1p(-fmin(layer[3], 1 - 1e-15));
 }
 
 // Where light is gathered in other ways: how far it goes when all values are off one way or the
@@ -183,23 +249,28 @@ double reference_cast_bound(const struct reference *reference, double x_px, doub
     if (!reference_is_plain(reference))
         return model_bound(reference, &path, errors);
     double termination = reference->scene->render.termination;
-    double bound = 0, depth = 0, t = 0;
-    for (double i = 0; t = reference_sample_t(reference, &path, i),
-                t < path.t_far + rounding_mm(reference, t, errors);
-         i++) {
-        double extinction = 0, wrong = 0, transmittance = exp(-depth);
-        for (int k = 0; k < reference->body_count; k++)
-            add_body(&extinction, &wrong, reference, &path, k, t, errors);
+    double bound = 0, depth = 0;
+    struct reference_walk walk = {0};
+    struct reference_stop stop;
+    while (reference_next(&stop, &walk, reference, &path, errors->rounding)) {
+        struct doubt doubts[PEL_VOLUME_MAX];
+        for (int n = 0; n < stop.count; n++) {
+            int k = stop.bodies[n];
+            const struct spot spot = {reference, &path, &reference->bodies[k], stop.t[n]};
+            double slack_mm = reference_slack_mm(reference, stop.t[n], errors->rounding);
+            doubts[n] = doubt_body(&spot, k, &path.spans[k], slack_mm, errors);
+        }
+        double transmittance = exp(-depth);
+        double here = mixed_depth(reference, doubts, stop.count);
 
         // Whether the ray has ended here may be uncertain; once that it has is certain, it has.
         double beyond = 1 - transmittance - termination;
         if (termination < 1 && beyond > bound + errors->rounding)
             break;
         if (termination < 1 && beyond > -bound - errors->rounding)
-            bound +=
-                brightest(reference) * transmittance * (1 - exp(-extinction * reference->step_mm));
-        bound += transmittance * -expm1(-wrong * reference->step_mm);
-        depth += extinction * reference->step_mm;
+            bound += brightest(reference) * transmittance * (1 - exp(-here));
+        bound += transmittance * -expm1(-mixed_wrong(reference, doubts, stop.count));
+        depth += here;
     }
     return bound;
 }

@@ -14,6 +14,9 @@ struct reference_table {
 // What a medium does to light: extinction per millimetre, and straight colour.
 struct reference_medium {
     double extinction, rgb[3];
+    double priority; // of the instance
+    int body;        // the instance among those that are mixed, 0 the first
+    double step_mm;  // the length that its sample stands for
 };
 
 void reference_table_init(struct reference_table *table, const struct pel_transfer *transfer,

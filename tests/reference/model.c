@@ -216,7 +216,7 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
     const struct reference *reference = gathering->reference;
     const enum pel_mixing mixing = reference->scene->render.mixing;
     struct reference_medium media[PEL_VOLUME_MAX];
-    int count = 0;
+    int count = 0, total = 0; // media here, and in the scene so far
     double layer[4] = {0};
     for (int k = 0; k < reference->body_count; k++) {
         const struct reference_body *body = &reference->bodies[k];
@@ -224,6 +224,7 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
         enum pel_model model = model_of(reference, k);
         struct reference_sample sample;
         double p_voxel[3];
+        total += model == PEL_MODEL_ABSORPTION;
         if (t < gathering->path->spans[k].t_in || t >= gathering->path->spans[k].t_out)
             continue;
         ++*taken;
@@ -236,6 +237,9 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
             add_thesis(layer, gathering, k, &sample);
         if (present && model == PEL_MODEL_ABSORPTION) {
             media[count] = reference_classify(body->instance, &body->table, &sample);
+            media[count].body = total - 1;
+            media[count].priority = body->instance->priority;
+            media[count].step_mm = reference->step_mm;
             if (media[count].extinction > 0)
                 shade(&media[count], gathering, k, t, p_voxel, sample.value);
             count++;
@@ -245,7 +249,7 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
         progress->value = present ? sample.value : 0;
     }
     double mixed[4];
-    reference_mix(mixed, mixing, media, count, reference->step_mm);
+    reference_mix(mixed, mixing, media, count, total);
     reference_compose(add_layer(gathering, i, MEDIA, 0), layer, mixed);
 }
 
@@ -259,6 +263,10 @@ bool reference_is_plain(const struct reference *reference) {
 void reference_gather(double rgba[4], const struct reference *reference,
                       const struct reference_path *path, const struct reference_errors *errors,
                       double sign, uint64_t *taken) {
+    if (reference->body_count > 0 && model_of(reference, 0) == PEL_MODEL_EMISSION) {
+        reference_emit(rgba, reference, path);
+        return;
+    }
     struct gathering gathering = {
         .reference = reference, .path = path, .errors = errors, .sign = sign};
     double termination = reference->scene->render.termination, so_far[4] = {0};

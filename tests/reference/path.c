@@ -74,7 +74,8 @@ struct reference *reference_create(const struct pel_scene *scene) {
         struct reference_body *body = &reference->bodies[reference->body_count++];
         init_body(body, scene, &scene->instances[i]);
         include_corners(reference, body);
-        reference->step_mm = fmin(reference->step_mm, step_of(scene, body));
+        body->step_mm = step_of(scene, body);
+        reference->step_mm = fmin(reference->step_mm, body->step_mm);
     }
     return reference;
 }
@@ -115,4 +116,82 @@ bool reference_begin(struct reference_path *path, const struct reference *refere
 double reference_sample_t(const struct reference *reference, const struct reference_path *path,
                           double i) {
     return path->t_near + (i + path->phase) * reference->step_mm;
+}
+
+double reference_slack_mm(const struct reference *reference, double t, double rounding) {
+    return rounding * (t + pel_length(reference->scene->camera.eye));
+}
+
+double reference_sample_mm(const struct reference *reference, int body) {
+    bool own = reference->scene->render.mixing == PEL_MIX_ORDERED;
+    return own ? reference->bodies[body].step_mm : reference->step_mm;
+}
+
+// All bodies at sample walk->next of the common grid, which may be none.
+static bool next_of_all(struct reference_stop *stop, struct reference_walk *walk,
+                        const struct reference *reference, const struct reference_path *path,
+                        double rounding) {
+    double t = reference_sample_t(reference, path, walk->next++);
+    double slack_mm = reference_slack_mm(reference, t, rounding);
+    if (t >= path->t_far + slack_mm)
+        return false;
+    for (int k = 0; k < reference->body_count; k++) {
+        struct reference_span span = path->spans[k];
+        if (span.t_in >= span.t_out || t < span.t_in - slack_mm || t >= span.t_out + slack_mm)
+            continue;
+        stop->bodies[stop->count] = k;
+        stop->t[stop->count++] = t;
+    }
+    return true;
+}
+
+// Where the next sample of body k lies on its own grid, from its own entry on; INFINITY behind its
+// last.
+static double own_t(struct reference_walk *walk, const struct reference *reference,
+                    const struct reference_path *path, int k, double rounding) {
+    struct reference_span span = path->spans[k];
+    if (span.t_in >= span.t_out)
+        return INFINITY;
+    bool bounds = reference->scene->render.origin == PEL_ORIGIN_BOUNDS;
+    double start = bounds ? path->t_near : span.t_in;
+    for (;; walk->nexts[k]++) {
+        double t = start + (walk->nexts[k] + path->phase) * reference->bodies[k].step_mm;
+        double slack_mm = reference_slack_mm(reference, t, rounding);
+        if (t >= span.t_out + slack_mm)
+            return INFINITY;
+        if (t >= span.t_in - slack_mm)
+            return t;
+    }
+}
+
+// The bodies whose next samples lie in the nearest place, in 64ths of the common step.
+static bool next_in_order(struct reference_stop *stop, struct reference_walk *walk,
+                          const struct reference *reference, const struct reference_path *path,
+                          double rounding) {
+    double places[PEL_VOLUME_MAX], t[PEL_VOLUME_MAX], nearest = INFINITY;
+    for (int k = 0; k < reference->body_count; k++) {
+        t[k] = own_t(walk, reference, path, k, rounding);
+        double steps = (t[k] - path->t_near) / reference->step_mm - path->phase;
+        places[k] = rint(64 * steps);
+        nearest = fmin(nearest, places[k]);
+    }
+    if (nearest == INFINITY)
+        return false;
+    for (int k = 0; k < reference->body_count; k++) {
+        if (places[k] != nearest)
+            continue;
+        stop->bodies[stop->count] = k;
+        stop->t[stop->count++] = t[k];
+        walk->nexts[k]++;
+    }
+    return true;
+}
+
+bool reference_next(struct reference_stop *stop, struct reference_walk *walk,
+                    const struct reference *reference, const struct reference_path *path,
+                    double rounding) {
+    stop->count = 0;
+    return reference->scene->render.mixing == PEL_MIX_ORDERED
+               ? next_in_order(stop, walk, reference, path, rounding)
+               : next_of_all(stop, walk, reference, path, rounding);
 }

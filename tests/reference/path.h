@@ -12,6 +12,7 @@ struct reference_body {
     struct pel_matrix world_from_voxel, voxel_from_world;
     double low[3], high[3]; // the box, in voxel coordinates
     struct reference_table table;
+    double step_mm; // that it asks for
 };
 
 struct reference {
@@ -36,8 +37,31 @@ struct reference_path {
 bool reference_begin(struct reference_path *path, const struct reference *reference, double x_px,
                      double y_px);
 
-// Where sample i lies. `i` is a whole number.
+// Where sample i of the common grid lies. `i` is a whole number.
 double reference_sample_t(const struct reference *reference, const struct reference_path *path,
                           double i);
+
+// Where a ray has samples: which bodies take part, and where each does.
+struct reference_stop {
+    int count;
+    int bodies[PEL_VOLUME_MAX];
+    double t[PEL_VOLUME_MAX];
+};
+
+// How far along its samples a ray is. Zero-initialise.
+struct reference_walk {
+    double next;                  // sample of the common grid
+    double nexts[PEL_VOLUME_MAX]; // and, with mixing in order, of each body's
+};
+
+// The next place with samples of any body; false at the end. Bodies whose box ends within
+// slack_mm(t) = rounding * (t + distance of the eye from the origin) take part, too.
+bool reference_next(struct reference_stop *stop, struct reference_walk *walk,
+                    const struct reference *reference, const struct reference_path *path,
+                    double rounding);
+double reference_slack_mm(const struct reference *reference, double t, double rounding);
+
+// The length that a sample of the body stands for.
+double reference_sample_mm(const struct reference *reference, int body);
 
 #endif

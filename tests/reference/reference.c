@@ -9,38 +9,39 @@
 #include "reference/shade.h"
 #include "reference/supersample.h"
 
-// The media present at t, in the order of the list; returns how many. `*taken` counts absent
-// samples too.
-static int media_at(struct reference_medium media[], const struct reference *reference,
-                    const struct reference_path *path, double t, uint64_t *taken) {
-    int count = 0;
-    for (int k = 0; k < reference->body_count; k++) {
-        const struct reference_body *body = &reference->bodies[k];
-        if (t < path->spans[k].t_in || t >= path->spans[k].t_out)
-            continue;
-        double p_voxel[3];
-        struct reference_sample sample;
-        reference_point_at(p_voxel, &path->rays[k], t);
-        ++*taken;
-        if (!reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel))
-            continue;
-        media[count] = reference_classify(body->instance, &body->table, &sample);
-        if (body->instance->material.shading != PEL_SHADING_NONE && media[count].extinction > 0) {
-            double normal[3];
-            reference_normal(normal, body, p_voxel, sample.value, NULL);
-            struct reference_shade shade = reference_shade(reference, body, &path->ray, t, normal);
-            reference_shade_apply(&media[count], &shade);
-        }
-        count++;
+// What body k has at t; false when it is absent.
+static bool medium_at(struct reference_medium *medium, const struct reference *reference,
+                      const struct reference_path *path, int k, double t) {
+    const struct reference_body *body = &reference->bodies[k];
+    double p_voxel[3];
+    struct reference_sample sample;
+    reference_point_at(p_voxel, &path->rays[k], t);
+    if (!reference_sample_volume(&sample, body->volume, body->instance->filter, p_voxel))
+        return false;
+    *medium = reference_classify(body->instance, &body->table, &sample);
+    medium->body = k;
+    medium->priority = body->instance->priority;
+    medium->step_mm = reference_sample_mm(reference, k);
+    if (body->instance->material.shading != PEL_SHADING_NONE && medium->extinction > 0) {
+        double normal[3];
+        reference_normal(normal, body, p_voxel, sample.value, NULL);
+        struct reference_shade shade = reference_shade(reference, body, &path->ray, t, normal);
+        reference_shade_apply(medium, &shade);
     }
-    return count;
+    return true;
 }
 
+// The layer of a stop. `*taken` counts samples, absent ones too.
 static void layer_at(double layer[4], const struct reference *reference,
-                     const struct reference_path *path, double t, uint64_t *taken) {
+                     const struct reference_path *path, const struct reference_stop *stop,
+                     uint64_t *taken) {
     struct reference_medium media[PEL_VOLUME_MAX];
-    int count = media_at(media, reference, path, t, taken);
-    reference_mix(layer, reference->scene->render.mixing, media, count, reference->step_mm);
+    int count = 0;
+    for (int n = 0; n < stop->count; n++) {
+        ++*taken;
+        count += medium_at(&media[count], reference, path, stop->bodies[n], stop->t[n]);
+    }
+    reference_mix(layer, reference->scene->render.mixing, media, count, reference->body_count);
 }
 
 static void background_layer(double layer[4], const struct pel_scene *scene) {
@@ -84,8 +85,10 @@ void reference_cast(const struct reference *reference, double x_px, double y_px,
     if (runs && !reference_is_plain(reference)) {
         reference_gather(rgba, reference, &path, NULL, 0, &taken);
     } else if (runs) {
-        for (double i = 0; reference_sample_t(reference, &path, i) < path.t_far; i++) {
-            layer_at(layer, reference, &path, reference_sample_t(reference, &path, i), &taken);
+        struct reference_walk walk = {0};
+        struct reference_stop stop;
+        while (reference_next(&stop, &walk, reference, &path, 0)) {
+            layer_at(layer, reference, &path, &stop, &taken);
             reference_compose(rgba, rgba, layer);
             if (rgba[3] > settings->termination && settings->termination != 1 &&
                 settings->order == PEL_ORDER_FRONT_TO_BACK)
@@ -106,15 +109,23 @@ void reference_cast_back_to_front(const struct reference *reference, double x_px
     if (!reference_begin(&path, reference, x_px, y_px))
         return;
 
-    double count = 0;
-    while (reference_sample_t(reference, &path, count) < path.t_far)
-        count++;
+    // Stops can only be counted forwards.
+    struct reference_walk walk = {0};
+    struct reference_stop stop, *stops = NULL;
+    size_t count = 0;
+    while (reference_next(&stop, &walk, reference, &path, 0)) {
+        stops = realloc(stops, (count + 1) * sizeof *stops);
+        if (!stops)
+            abort();
+        stops[count++] = stop;
+    }
     uint64_t taken = 0;
     while (count-- > 0) {
         double layer[4];
-        layer_at(layer, reference, &path, reference_sample_t(reference, &path, count), &taken);
+        layer_at(layer, reference, &path, &stops[count], &taken);
         reference_compose(rgba, layer, rgba);
     }
+    free(stops);
 }
 
 void reference_ray(const struct pel_scene *scene, double x_px, double y_px, double rgba[4],

@@ -10,7 +10,7 @@ failed=0
 for lanes in 1 4 8 16; do
     for reader in 0 1; do
         for others in '' '-DSHADING=1' '-DVOXELS=15 -DFILTERS=3 -DMIXING=0' \
-            '-DVOXELS=15 -DFILTERS=3 -DMIXING=1 -DCAPACITY=8 -DSHADING=1' \
+            '-DVOXELS=15 -DFILTERS=3 -DMIXING=1 -DCAPACITY=8 -DSHADING=1' '-DMIXING=2 -DCAPACITY=8 -DSHADING=1' \
             '-DSUPERSAMPLING=1 -DSKIP=2' '-DSUPERSAMPLING=1 -DJITTER=1 -DSKIP=3'; do
             for file in "${files[@]}"; do
                 # shellcheck disable=SC2086

@@ -23,7 +23,8 @@ defs = schema["$defs"]
 # Keys of the parser: tables named X_keys; names it accepts: tables named X_names.
 tables = {}
 for path in sorted(glob.glob("host/world/scene_*.c") + glob.glob("host/transfer/*.c") +
-                   glob.glob("host/volume/generate.c") + glob.glob("host/camera/stereo.c")):
+                   glob.glob("host/volume/generate.c") + glob.glob("host/camera/stereo.c") +
+                   glob.glob("host/world/mixing.c")):
     for name, body in re.findall(r"const char \*const (\w+)\[\] = \{([^}]*)\}", open(path).read()):
         tables[path.split("/")[-1] + ":" + name] = re.findall(r'"([^"]+)"', body)
 
@@ -86,7 +87,7 @@ def enumerations(node):
             yield from enumerations(value)
 known = set(enumerations(schema))
 for table, names in tables.items():
-    if re.match(r"scene_.*_names$|preset.c:names$|generate.c:names$|stereo.c:stereo_names$", table):
+    if re.match(r"scene_.*_names$|preset.c:names$|generate.c:names$|stereo.c:stereo_names$|mixing.c:mixing_names$", table):
         check(frozenset(names) in known, table, "is no enumeration of the schema:", names)
 
 # Scenes and examples follow the schema.

@@ -121,10 +121,14 @@ struct pel_scene *scene_random(uint64_t seed, bool small) {
 
     for (int c = 0; c < 4; c++)
         scene->background[c] = below(&seed, 2) ? 0 : test_random(&seed);
-    scene->render.mixing = below(&seed, 2) ? PEL_MIX_OVER : PEL_MIX_SUM;
+    scene->render.mixing = (enum pel_mixing)below(&seed, PEL_MIX_DIFFERENCE + 1);
     scene->render.origin = below(&seed, 3) ? PEL_ORIGIN_VOLUMES : PEL_ORIGIN_BOUNDS;
     scene->render.step = between(&seed, small ? 0.7 : 0.3, 1.2);
     scene->render.phase = below(&seed, 2) ? 0.5 : between(&seed, 0, 1);
     scene->render.termination = below(&seed, 2) ? 1 : between(&seed, 0.6, 0.99);
+    for (int k = 0; k < count; k++) {
+        scene->instances[k].priority = below(&seed, 3);
+        scene->instances[k].step = below(&seed, 4) ? 0 : between(&seed, 0.7, 1.5);
+    }
     return scene;
 }

@@ -43,8 +43,9 @@ static const struct {
      "bad.json:1:22: render.size.0: must be at least 1 and at most 32768, not 0"},
     {"{'render': {'size': [1.5, 5]}, " TEST_VOLUMES "}",
      "bad.json:1:13: render.size: must be whole numbers, not 1.5 x 5"},
-    {"{'render': {'mixing': 'max'}, " TEST_VOLUMES "}",
-     "bad.json:1:13: render.mixing: must be sum or over, not \"max\""},
+    {"{'render': {'mixing': 'most'}, " TEST_VOLUMES "}",
+     "bad.json:1:13: render.mixing: must be sum, over, ordered, max, priority, union, "
+     "intersection or difference, not \"most\""},
     {"{'render': {\n\t'stop': 1}, " TEST_VOLUMES "}",
      "bad.json:2:2: render.stop: unknown key; did you mean 'step'"},
     {"{'render': {'step': 0}, " TEST_VOLUMES "}",
