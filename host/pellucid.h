@@ -487,10 +487,19 @@ enum pel_skip {
     PEL_SKIP_BVH,      // from cluster to cluster of bricks, by a bounding volume hierarchy
 };
 
+// Whether only those bricks of 16^3 voxels are on the device in which something can be seen. They
+// are read through a table; the picture is the same.
+enum pel_pool_use {
+    PEL_POOL_AUTO, // where the volumes do not fit otherwise
+    PEL_POOL_OFF,
+    PEL_POOL_ON,
+};
+
 // The cubes of voxels in which PEL_SKIP_BVH looks for what is visible (Ganter & Manzke 2019).
 struct pel_brick_settings {
-    int size;   // voxels along a side: 8, 16, 32, 64 or 128; 0 = 16
+    int size;   // voxels along a side: 8, 16, 32, 64 or 128; 0 = 16; with a pool at least 16
     bool apart; // each active brick is a cluster of its own
+    enum pel_pool_use pool;
 };
 
 // Where the n x n rays of a pixel go through it. See docs/picture.md for the sources.
@@ -729,6 +738,7 @@ struct pel_image {
 struct pel_brick_statistics {
     int size;                                // voxels along a side; 0: there are none
     uint64_t total, active, clusters;        //
+    uint64_t resident;                       // of the pool, on the device; 0 without one
     double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
 };
 

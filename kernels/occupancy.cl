@@ -174,7 +174,7 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
                      : (uchar)empty;
     else if (pass == PASS_NAME)
         out[i] = name_node(part, in, dims, (int)i);
-    else if (pass > PASS_BRICK)
+    else if (pass >= PASS_BRICK)
         out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
     else if (pass > PASS_MERGE)
         merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));

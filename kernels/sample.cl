@@ -15,6 +15,9 @@
 #ifndef READER
 #define READER READER_BUFFER // where voxels are read from
 #endif
+#ifndef POOL
+#define POOL 0 // 1: bricks come from a pool, behind a table of pages, and only those that may be seen
+#endif
 #ifndef VOXELS
 #define VOXELS VOXELS_U8 // which classes of voxels occur
 #endif

@@ -5,8 +5,16 @@
 #ifndef SAMPLE_BUFFER_CL
 #define SAMPLE_BUFFER_CL
 
+#if POOL
+#define PAGES_PARAMETER , __global const int *pages
+#define PAGES_ARGUMENT , pages
+#else
+#define PAGES_PARAMETER
+#define PAGES_ARGUMENT
+#endif
 #define MEMORY_PARAMETERS                                                                          \
     __global const uchar *buffer0, __global const uchar *buffer1, __global const uchar *buffer2,   \
+<<<<<<< HEAD
         __global const uchar *buffer3 LIVE_PARAMETERS
 #define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 LIVE_ARGUMENTS
 
@@ -18,6 +26,10 @@
 #define LIVE_PARAMETERS
 #define LIVE_ARGUMENTS
 #endif
+=======
+        __global const uchar *buffer3 PAGES_PARAMETER
+#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 PAGES_ARGUMENT
+>>>>>>> main
 
 // Two neighbouring voxels of one byte, wherever they begin.
 struct __attribute__((packed)) byte_pair {
@@ -30,12 +42,18 @@ struct cell {
     real x, y, z;
 };
 
-// The index of a voxel, from the part's first, with the next ones along all axes in the same brick. A table of bricks
-// that are there would be looked up here, with the brick's number.
-INLINE integer voxel_index(__constant struct part *part, integer x, integer y, integer z) {
+#define LOAD_PAGE(at) pages[at]
+
+// The index of a voxel, from the part's first, with the next ones along all axes in the same brick.
+INLINE integer voxel_index(__constant struct part *part, integer x, integer y,
+                           integer z PAGES_PARAMETER) {
     const integer inside = BRICK_SIDE - 1;
-    const integer brick = (z >> BRICK_BITS) * part->brick_slice +
+    integer brick = (z >> BRICK_BITS) * part->brick_slice +
                           (y >> BRICK_BITS) * part->brick_row + (x >> BRICK_BITS);
+#if POOL
+    brick += (int)part->ranges;
+    brick = GATHER(int, LOAD_PAGE, brick);
+#endif
     return brick * BRICK_VOXELS + (z & inside) * BRICK_SLICE + (y & inside) * BRICK_ROW +
            (x & inside);
 }
@@ -130,7 +148,7 @@ INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part,
     // Positions are positive, so truncation is floor.
     const integer ix = TO_INTEGER(x + half_voxel), iy = TO_INTEGER(y + half_voxel),
                   iz = TO_INTEGER(z + half_voxel);
-    const struct cell cell = {.offset = voxel_index(part, ix, iy, iz),
+    const struct cell cell = {.offset = voxel_index(part, ix, iy, iz PAGES_ARGUMENT),
                               .x = x - TO_REAL(ix),
                               .y = y - TO_REAL(iy),
                               .z = z - TO_REAL(iz)};

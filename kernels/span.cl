@@ -8,10 +8,12 @@
 #include "shared/probe.h"
 #include "traverse/cursor.cl"
 
+#if SKIP != SKIP_NONE || POOL
+#include "occupancy.cl"
+#endif
 #if SKIP == SKIP_NONE
 #include "traverse/none.cl"
 #else
-#include "occupancy.cl"
 #if SKIP == SKIP_OCTREE
 #include "traverse/octree.cl"
 #elif SKIP == SKIP_BVH

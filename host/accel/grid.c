@@ -1,8 +1,8 @@
 // grid.c - the range of values in each cell of a slab.
 //
-// A voxel on a wall between cells belongs to both, because interpolation on either side needs it.
-// So a slice is first reduced to ranges along x and y, and these are then merged into one or two
-// layers of cells.
+// A voxel on a wall between cells belongs to both, because interpolation on either side needs it;
+// with a margin, one near a wall does, too. So each row is reduced to ranges along x, and these are
+// then merged into the cells along y and z that it counts for.
 #include "accel/grid.h"
 
 #include <math.h>
@@ -13,15 +13,17 @@
 #include "base/memory.h"
 #include "volume/volume.h"
 
-size_t pel_grid_cells(size_t voxels) {
-    return (voxels + CELL_VOXELS - 1) / CELL_VOXELS;
+size_t pel_grid_cells(size_t voxels, size_t side) {
+    return (voxels + side - 1) / side;
 }
 
-bool pel_grid_init(struct pel_grid *grid, const size_t dims[3]) {
+bool pel_grid_init(struct pel_grid *grid, const size_t dims[3], size_t side, size_t margin) {
     size_t count = 1;
+    grid->side = side;
+    grid->margin = margin;
     for (int i = 0; i < 3; i++) {
         grid->dims[i] = dims[i];
-        grid->cells[i] = pel_grid_cells(dims[i]);
+        grid->cells[i] = pel_grid_cells(dims[i], side);
         count *= grid->cells[i];
     }
     grid->range = pel_allocate(count, sizeof *grid->range);
@@ -42,10 +44,12 @@ void pel_grid_finish(struct pel_grid *grid) {
 // The ranges of one row's cells, in the type's own numbers; comparisons with NaN are false, so
 // absent voxels drop out.
 #define DEFINE_ROW(name, type)                                                                     \
-    static void row_##name(float(*range)[2], const type *row, size_t width, size_t stride,         \
-                           float factor) {                                                         \
-        for (size_t first = 0, cell = 0; first < width; first += CELL_VOXELS, cell++) {            \
-            size_t last = first + CELL_VOXELS < width ? first + CELL_VOXELS : width - 1;           \
+    static void row_##name(float(*range)[2], const struct pel_grid *grid, const type *row,         \
+                           size_t stride, float factor) {                                          \
+        size_t width = grid->dims[0], margin = grid->margin;                                       \
+        for (size_t start = 0, cell = 0; start < width; start += grid->side, cell++) {             \
+            size_t first = start > margin ? start - margin : 0, end = start + grid->side + margin; \
+            size_t last = end < width ? end : width - 1;                                           \
             float low = INFINITY, high = -INFINITY;                                                \
             for (size_t x = first; x <= last; x++) {                                               \
                 float value = (float)row[x * stride];                                              \
@@ -68,14 +72,15 @@ static void merge(float (*into)[2], float (*from)[2], size_t count) {
     }
 }
 
-// Merges what was found at voxel `at` of an axis into its cells there: one, or two on a wall.
-static void merge_at(float (*cells)[2], size_t stride, size_t cell_count, size_t at,
-                     float (*from)[2], size_t count) {
-    size_t cell = at / CELL_VOXELS;
-    if (cell < cell_count)
-        merge(cells + cell * stride, from, count);
-    if (at % CELL_VOXELS == 0 && cell > 0)
-        merge(cells + (cell - 1) * stride, from, count);
+// The first and the last cell along an axis of `count` cells that voxel `at` counts for: one, or
+// more on a wall and near it.
+static void cells_at(const struct pel_grid *grid, size_t at, size_t count, size_t *first,
+                     size_t *last) {
+    size_t behind = grid->side + grid->margin;
+    *first = at > behind ? (at - behind + grid->side - 1) / grid->side : 0;
+    *last = (at + grid->margin) / grid->side;
+    if (*last >= count)
+        *last = count - 1;
 }
 
 void pel_grid_add_slice(struct pel_grid *grid, size_t z, const void *slice, int class_index,
@@ -87,27 +92,24 @@ void pel_grid_add_slice(struct pel_grid *grid, size_t z, const void *slice, int 
         const char *start = slice;
         switch (class_index) {
         case 0:
-            row_u8(row, (const uint8_t *)start + y * width, width, 1, factor);
+            row_u8(row, grid, (const uint8_t *)start + y * width, 1, factor);
             break;
         case 1:
-            row_u16(row, (const uint16_t *)(const void *)start + y * width, width, 1, factor);
+            row_u16(row, grid, (const uint16_t *)(const void *)start + y * width, 1, factor);
             break;
         case 2:
-            row_f32(row, (const float *)(const void *)start + y * width, width, 1, factor);
+            row_f32(row, grid, (const float *)(const void *)start + y * width, 1, factor);
             break;
         default:
             // The value of a colour is its alpha.
-            row_u8(row, (const uint8_t *)start + 4 * y * width + 3, width, 4, factor);
+            row_u8(row, grid, (const uint8_t *)start + 4 * y * width + 3, 4, factor);
             break;
         }
-        size_t slice_cells = columns * grid->cells[1];
-        for (int layer = 0; layer < 2; layer++) {
-            size_t cell_z = z / CELL_VOXELS;
-            if (layer == 1 && (z % CELL_VOXELS != 0 || cell_z-- == 0))
-                break;
-            if (cell_z < grid->cells[2])
-                merge_at(grid->range + cell_z * slice_cells, columns, grid->cells[1], y, row,
-                         columns);
-        }
+        size_t first[2], last[2];
+        cells_at(grid, y, grid->cells[1], &first[0], &last[0]);
+        cells_at(grid, z, grid->cells[2], &first[1], &last[1]);
+        for (size_t cell_z = first[1]; cell_z <= last[1]; cell_z++)
+            for (size_t cell_y = first[0]; cell_y <= last[0]; cell_y++)
+                merge(grid->range + (cell_z * grid->cells[1] + cell_y) * columns, row, columns);
     }
 }

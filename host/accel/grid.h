@@ -8,21 +8,28 @@
 
 #include "shared/grid.h"
 
-// Ranges of stored voxels over cells of CELL_VOXELS^3 (shared/grid.h), filled slice by slice.
+// Ranges of stored voxels over cells (shared/grid.h), filled slice by slice.
 struct pel_grid {
-    size_t dims[3];    // stored voxels along x, y, z
-    size_t cells[3];   // cells along x, y, z
+    size_t side, margin; // voxels along a cell's side, and those around it that count, too
+    size_t dims[3];      // stored voxels along x, y, z
+    size_t cells[3];     // cells along x, y, z
     float (*range)[2]; // owned; least and greatest value of each cell; least > greatest: all absent
 };
 
+<<<<<<< HEAD
 // Ends of a cell's range that stand for any value.
 #define PEL_GRID_ENDLESS 1e30F
 
 // The number of cells over `voxels` stored voxels along one axis.
 size_t pel_grid_cells(size_t voxels);
+=======
+// The number of cells of `side` voxels over `voxels` stored voxels along one axis.
+size_t pel_grid_cells(size_t voxels, size_t side);
+>>>>>>> main
 
-// Prepares for a slab of dims[0] x dims[1] x dims[2] stored voxels, border included. False: MEMORY.
-bool pel_grid_init(struct pel_grid *grid, const size_t dims[3]);
+// Prepares for a slab of dims[0] x dims[1] x dims[2] stored voxels, border included, and cells of
+// at least CELL_VOXELS voxels a side. False: MEMORY.
+bool pel_grid_init(struct pel_grid *grid, const size_t dims[3], size_t side, size_t margin);
 void pel_grid_finish(struct pel_grid *grid);
 
 // Takes stored slice z, dims[0] x dims[1] voxels of the class with index `class_index` (the bit of

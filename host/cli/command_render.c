@@ -75,6 +75,7 @@ static json_t *describe_bricks(const struct pel_brick_statistics *bricks) {
     json_object_set_new(object, "size", json_integer(bricks->size));
     json_object_set_new(object, "total", json_integer((json_int_t)bricks->total));
     json_object_set_new(object, "active", json_integer((json_int_t)bricks->active));
+    json_object_set_new(object, "resident", json_integer((json_int_t)bricks->resident));
     json_object_set_new(object, "clusters", json_integer((json_int_t)bricks->clusters));
     json_object_set_new(object, "activity_ms", report_number(bricks->activity_ms));
     json_object_set_new(object, "cluster_ms", report_number(bricks->cluster_ms));

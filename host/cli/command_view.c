@@ -4,6 +4,8 @@
 
 #include "cli/options.h"
 #include "cli/overrides.h"
+#include "cli/report.h"
+#include "viewer/keys.h"
 #include "viewer/viewer.h"
 
 enum {
@@ -14,12 +16,16 @@ enum {
     KEY_SCRIPT,
     KEY_SCREENSHOT,
     KEY_FRAMES,
+    KEY_LATENCY,
+    KEY_KEYS,
     KEY_DEVICE,
     KEY_READER,
     KEY_SET,
 };
 
 struct arguments {
+    bool keys;
+    struct pel_viewer_latency latency;
     char **inputs;
     int input_count;
     struct overrides overrides;
@@ -37,6 +43,11 @@ static const struct argp_option options[] = {
     {"screenshot", KEY_SCREENSHOT, "FILE", 0,
      "Save the window there after the last event, once its picture is complete, and end", 0},
     {"frames", KEY_FRAMES, "N", 0, "End after N pictures", 0},
+    {"latency", KEY_LATENCY, "N", 0,
+     "Measure how long it takes from N inputs to pictures that show them, each input coming while "
+     "a frame is in flight; write JSON to standard output, and end",
+     0},
+    {"keys", KEY_KEYS, NULL, 0, "List every key and mouse action as Markdown, and end", 0},
     {0, 0, NULL, 0, "The scene and the device:", 3},
     {"set", KEY_SET, "KEY=VALUE", 0,
      "Set any key of the scene, such as volumes.0.density=0.2; may be repeated", 0},
@@ -86,6 +97,13 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     case KEY_FRAMES:
         good = cli_integer("--frames", argument, 1, &viewer->frames);
         break;
+    case KEY_LATENCY:
+        good = cli_integer("--latency", argument, 1, &arguments->latency.inputs);
+        viewer->latency = &arguments->latency;
+        break;
+    case KEY_KEYS:
+        arguments->keys = true;
+        break;
     case KEY_SET:
         good = add_set(arguments, argument);
         break;
@@ -100,7 +118,8 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         arguments->input_count = state->argc - state->next;
         break;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "a scene or a volume is needed");
+        if (!arguments->keys)
+            argp_error(state, "a scene or a volume is needed");
         break;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -110,7 +129,22 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
 
 #ifdef PELLUCID_VIEWER
 
+static int print_latency(const struct pel_viewer_latency *latency) {
+    json_t *object = json_object();
+    json_object_set_new(object, "inputs", json_integer(latency->measured));
+    json_object_set_new(object, "in_flight", json_integer(latency->in_flight));
+    json_object_set_new(object, "lost", json_integer(latency->lost));
+    json_object_set_new(object, "full_frame_ms", report_number(latency->full_ms));
+    json_object_set_new(object, "median_ms", report_number(latency->median_ms));
+    json_object_set_new(object, "worst_ms", report_number(latency->worst_ms));
+    return report_json(object);
+}
+
 static int view(struct arguments *arguments) {
+    if (arguments->keys) {
+        pel_keys_write(stdout);
+        return PEL_OK;
+    }
     const char *const *overrides = (const char *const *)arguments->overrides.texts;
     int count = arguments->overrides.count;
     struct pel_scene *scene;
@@ -129,7 +163,9 @@ static int view(struct arguments *arguments) {
     char sentence[512];
     enum pel_error code = pel_viewer_run(&arguments->viewer, sentence, sizeof sentence);
     pel_scene_destroy(scene);
-    return code ? cli_fail(code, "%s", sentence) : PEL_OK;
+    if (code)
+        return cli_fail(code, "%s", sentence);
+    return arguments->viewer.latency ? print_latency(&arguments->latency) : PEL_OK;
 }
 
 #else

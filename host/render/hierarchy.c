@@ -12,7 +12,6 @@
 #include "accel/cluster.h"
 #include "base/error.h"
 #include "base/memory.h"
-#include "shared/grid.h"
 #include "world/bricks.h"
 
 // All parts' nodes so far.
@@ -28,7 +27,7 @@ static double now_ms(void) {
 }
 
 size_t pel_hierarchy_bricks(const struct pel_world *world, int p, int size, size_t dims[3]) {
-    size_t cells[3], count = 1, across = (size_t)size / CELL_VOXELS;
+    size_t cells[3], count = 1, across = (size_t)(size / world->cell_side);
     pel_world_cells(world, p, cells);
     for (int i = 0; i < 3; i++) {
         dims[i] = (cells[i] + across - 1) / across;
@@ -81,8 +80,8 @@ static bool build_parts(struct pel_hierarchy *hierarchy, const struct pel_world 
 bool pel_hierarchy_build(struct pel_hierarchy *hierarchy, struct pel_device *device,
                          const struct pel_world *world, const uint8_t *active,
                          const struct pel_brick_settings *settings) {
-    pel_hierarchy_finish(hierarchy);
-    hierarchy->statistics.size = settings->size;
+    hierarchy->statistics = (struct pel_brick_statistics){
+        .size = settings->size, .resident = hierarchy->statistics.resident};
     i32 starts[WORLD_PART_MAX] = {0};
     struct nodes nodes = {NULL, 0};
     bool good = build_parts(hierarchy, world, active, settings, starts, &nodes);

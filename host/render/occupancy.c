@@ -111,31 +111,80 @@ static bool find_bricks(struct pel_occupancy *occupancy, const struct pel_world 
     size_t dims[3];
     size_t bricks = pel_hierarchy_bricks(world, p, size, dims);
     uint32_t bits = 0;
-    while (CELL_VOXELS << bits < size)
+    while (world->cell_side << bits < size)
         bits++;
     return set_pass(occupancy, occupancy->scratch, occupancy->cells, PASS_BRICK + bits) &&
            launch(occupancy, bricks);
 }
 
-static bool derive_part(struct pel_occupancy *occupancy, const struct pel_world *world,
-                        const struct pel_buffer *world_buffer,
-                        const struct pel_residency *residency, int p) {
-    struct pel_kernel *kernel = occupancy->kernel;
-    size_t cells[3];
+// Binds what belongs to part p and to no other; *count is the number of its cells.
+static bool set_part(struct pel_occupancy *occupancy, const struct pel_world *world, int p,
+                     size_t cells[3], size_t *count) {
     pel_world_cells(world, p, cells);
-    size_t count = cells[0] * cells[1] * cells[2];
-    bool tree = occupancy->key.skip == PEL_SKIP_OCTREE, bvh = occupancy->key.skip == PEL_SKIP_BVH;
-    return pel_kernel_set_buffer(kernel, 0, world_buffer) &&
-           pel_kernel_set_buffer(kernel, 1, residency->ranges) &&
-           pel_kernel_set_buffer(kernel, 2, occupancy->visible.buffer) &&
-           pel_kernel_set_u32(kernel, 5, (uint32_t)p) &&
-           pel_kernel_set_u32(kernel, 6, (uint32_t)count) &&
-           pel_kernel_set_u32(kernel, 7, world->table_linear) &&
-           pel_kernel_set_u32(kernel, 9, tree ? 1 : CELL_DISTANCE_MAX) &&
-           run_pass(occupancy, occupancy->cells, occupancy->scratch, count, PASS_OCCUPY) &&
-           (tree  ? grow_octree(occupancy, cells)
-            : bvh ? find_bricks(occupancy, world, p, occupancy->key.brick_size)
-                  : spread_distances(occupancy, count));
+    *count = cells[0] * cells[1] * cells[2];
+    return pel_kernel_set_u32(occupancy->kernel, 5, (uint32_t)p) &&
+           pel_kernel_set_u32(occupancy->kernel, 6, (uint32_t)*count);
+}
+
+// Finds the empty cells of all parts: in `scratch`.
+static bool occupy(struct pel_occupancy *occupancy, const struct pel_world *world,
+                   const struct pel_buffer *world_buffer, const struct pel_residency *residency) {
+    struct pel_kernel *kernel = occupancy->kernel;
+    bool tree = occupancy->key.skip == PEL_SKIP_OCTREE;
+    bool good = pel_kernel_set_buffer(kernel, 0, world_buffer) &&
+                pel_kernel_set_buffer(kernel, 1, residency->ranges) &&
+                pel_kernel_set_buffer(kernel, 2, occupancy->visible.buffer) &&
+                pel_kernel_set_u32(kernel, 7, world->table_linear) &&
+                pel_kernel_set_u32(kernel, 9, tree ? 1 : CELL_DISTANCE_MAX);
+    for (int p = 0; good && p < world->bytes.part_count; p++) {
+        size_t cells[3], count;
+        good = set_part(occupancy, world, p, cells, &count) &&
+               run_pass(occupancy, occupancy->cells, occupancy->scratch, count, PASS_OCCUPY);
+    }
+    return good;
+}
+
+// Brings to the device the bricks in which some part shows something. Parts of one volume share
+// them.
+static bool fill_pool(struct pel_occupancy *occupancy, const struct pel_world *world,
+                      struct pel_residency *residency, const struct pel_scene *scene,
+                      const struct pel_layout_limits *limits) {
+    struct pel_brick_statistics *statistics = &occupancy->hierarchy.statistics;
+    size_t pages = residency->layout.range_count;
+    uint8_t *empty = pel_allocate(world->cell_count, 1), *active = pel_allocate(pages, 1);
+    bool good = empty && active && pel_buffer_read(occupancy->scratch, 0, world->cell_count, empty);
+    for (int p = 0; good && p < world->bytes.part_count; p++) {
+        const struct part *part = &world->bytes.parts[p];
+        size_t cells[3];
+        pel_world_cells(world, p, cells);
+        for (size_t i = 0; i < cells[0] * cells[1] * cells[2]; i++)
+            active[part->ranges + i] |= !empty[part->cells + i];
+    }
+    statistics->size = world->cell_side;
+    statistics->total = pages;
+    for (size_t i = 0; good && i < pages; i++)
+        statistics->active += active[i];
+    good = good && pel_residency_fill(residency, scene, limits, active);
+    statistics->resident = residency->pool.resident;
+    free(empty);
+    free(active);
+    return good;
+}
+
+// From the empty cells of all parts to what the way to skip goes by.
+static bool derive(struct pel_occupancy *occupancy, const struct pel_world *world) {
+    bool good = true;
+    for (int p = 0; good && p < world->bytes.part_count; p++) {
+        size_t cells[3], count;
+        good = set_part(occupancy, world, p, cells, &count);
+        if (occupancy->key.skip == PEL_SKIP_OCTREE)
+            good = good && grow_octree(occupancy, cells);
+        else if (occupancy->key.skip == PEL_SKIP_BVH)
+            good = good && find_bricks(occupancy, world, p, occupancy->key.brick_size);
+        else if (occupancy->key.skip == PEL_SKIP_DISTANCE)
+            good = good && spread_distances(occupancy, count);
+    }
+    return good;
 }
 
 // Brings the active bricks here and the hierarchy over their clusters to the device.
@@ -153,9 +202,10 @@ static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *
 
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,
-                          const struct pel_residency *residency, const struct pel_kernel *render,
-                          enum pel_skip skip, const struct pel_brick_settings *settings) {
-    if (skip == PEL_SKIP_NONE || world->bytes.part_count == 0)
+                          struct pel_residency *residency, const struct pel_scene *scene,
+                          const struct pel_layout_limits *limits, const struct pel_kernel *render,
+                          enum pel_skip skip) {
+    if ((skip == PEL_SKIP_NONE && !world->pool) || world->bytes.part_count == 0)
         return make_room(occupancy, device, 1);
     double start_ms = now_ms();
     bool changed = false;
@@ -166,18 +216,20 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
                            world->visible_words * sizeof *world->visible, 0, "visible entries",
                            &changed))
         return false;
-    struct pel_brick_settings bricks = pel_bricks_resolve(settings);
+    struct pel_brick_settings bricks = pel_bricks_resolve(&scene->render.bricks);
+    if (bricks.size < world->cell_side)
+        bricks.size = world->cell_side;
     struct pel_occupancy_key key;
     make_key(&key, world, &residency->layout, skip, &bricks);
-    if (!changed && memcmp(&key, &occupancy->key, sizeof key) == 0)
+    if (!changed && memcmp(&key, &occupancy->key, sizeof key) == 0 &&
+        (!world->pool || residency->pool.filled))
         return true;
     memcpy(&occupancy->key, &key, sizeof key);
-    bool good = true;
-    for (int p = 0; good && p < world->bytes.part_count; p++)
-        good = derive_part(occupancy, world, world_buffer, residency, p);
     pel_hierarchy_finish(&occupancy->hierarchy);
-    good =
-        good && (skip == PEL_SKIP_BVH ? build_hierarchy(occupancy, device, world, &bricks, start_ms)
+    bool good = occupy(occupancy, world, world_buffer, residency) &&
+                (!world->pool || fill_pool(occupancy, world, residency, scene, limits)) &&
+                derive(occupancy, world) &&
+                (skip == PEL_SKIP_BVH ? build_hierarchy(occupancy, device, world, &bricks, start_ms)
                                       : pel_device_finish(device));
     if (!good)
         occupancy->key.part_count = 0;

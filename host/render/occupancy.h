@@ -32,12 +32,13 @@ struct pel_occupancy {
 
 // Derives what `skip` (not AUTO) goes by for a world whose bytes are in `world_buffer`, unless it
 // is there from the last time. The kernel for it comes from the program of `render`, one that
-// skips. With PEL_SKIP_NONE only a buffer that kernels can be given is made. False: DEVICE, MEMORY,
-// BUILD.
+// skips. With a pool it also brings the bricks to the device that can be seen. With PEL_SKIP_NONE
+// and without a pool only a buffer that kernels can be given is made. False: DEVICE, MEMORY, BUILD.
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,
-                          const struct pel_residency *residency, const struct pel_kernel *render,
-                          enum pel_skip skip, const struct pel_brick_settings *settings);
+                          struct pel_residency *residency, const struct pel_scene *scene,
+                          const struct pel_layout_limits *limits, const struct pel_kernel *render,
+                          enum pel_skip skip);
 
 // The bytes on the device for it.
 uint64_t pel_occupancy_bytes(const struct pel_occupancy *occupancy);

@@ -150,7 +150,8 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
     enum { FIRST_BATCH = 64 };
     double start = now_ms(), mark = start;
     double batch_ms = options && options->batch_ms > 0 ? options->batch_ms : batch_default_ms;
-    double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms : FIRST_BATCH;
+    // The frame before may have had cheaper tiles, so the first batch only looks how these are.
+    double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms / 4 : FIRST_BATCH;
     for (size_t tile = 0; tile < extent->tiles;) {
         size_t left = extent->tiles - tile;
         size_t count = batch < 1 ? 1 : batch < (double)left ? (size_t)batch : left;
@@ -272,13 +273,14 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
                      packets * sizeof(u32), device, "sample counts"))
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
+    struct pel_layout_limits limits =
+        pel_residency_limits(device, renderer->options.max_allocation_bytes);
     if (!pel_occupancy_update(&renderer->occupancy, device, world, renderer->world.buffer,
-                              &renderer->residency, kernel, statistics->skip,
-                              &scene->render.bricks) ||
+                              &renderer->residency, scene, &limits, kernel, statistics->skip) ||
         !set_arguments(renderer, kernel, &variant))
         return NULL;
     statistics->skip_ms = lap_ms(&mark);
-    if (statistics->skip != PEL_SKIP_NONE) {
+    if (statistics->skip != PEL_SKIP_NONE || world->pool) {
         statistics->skip_bytes = pel_occupancy_bytes(&renderer->occupancy) +
                                  pel_buffer_bytes(renderer->residency.ranges);
         statistics->bricks = renderer->occupancy.hierarchy.statistics;

@@ -7,6 +7,7 @@
 #include "accel/grid.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "shared/grid.h"
 #include "world/brick.h"
 #include "world/pack.h"
 
@@ -34,7 +35,7 @@ struct pel_layout_limits pel_residency_limits(const struct pel_device *device,
 
 static bool create_memory(struct pel_residency *residency, const struct pel_layout *layout) {
     bool image = layout->reader == PEL_READER_IMAGE;
-    for (int b = 0; !image && b < VOXEL_BUFFERS; b++) {
+    for (int b = 0; !image && !layout->pool && b < VOXEL_BUFFERS; b++) {
         // Every buffer argument of the kernel needs a buffer, if only of a byte.
         residency->buffers[b] =
             pel_buffer_create(residency->device, layout->buffer_bytes[b], "voxels");
@@ -166,7 +167,7 @@ static bool send_slab(struct pel_residency *residency, const struct pel_volume *
     if (!shipment_init(&shipment, volume, slab, bricks))
         return false;
     struct pel_grid grid;
-    if (!pel_grid_init(&grid, shipment.dims)) {
+    if (!pel_grid_init(&grid, shipment.dims, CELL_VOXELS, 0)) {
         shipment_finish(&shipment);
         return false;
     }
@@ -192,7 +193,12 @@ static bool send_voxels(struct pel_residency *residency, const struct pel_scene 
     pel_residency_finish(residency);
     residency->layout = *layout;
     bool good = create_memory(residency, layout);
-    for (int s = 0; good && s < layout->slab_count; s++) {
+    if (layout->pool)
+        good = good && pel_pool_init(&residency->pool, residency->device, scene, layout) &&
+               pel_buffer_write(residency->ranges, 0,
+                                layout->range_count * sizeof *residency->pool.ranges,
+                                residency->pool.ranges);
+    for (int s = 0; good && !layout->pool && s < layout->slab_count; s++) {
         const struct pel_volume *volume = scene->volumes[layout->slabs[s].volume];
         good = send_slab(residency, volume, &layout->slabs[s]);
         if (!good)
@@ -203,23 +209,43 @@ static bool send_voxels(struct pel_residency *residency, const struct pel_scene 
     return good;
 }
 
+<<<<<<< HEAD
 bool pel_residency_update(struct pel_residency *residency, const struct pel_scene *scene,
                           const struct pel_layout *layout, const struct pel_world *world) {
     residency->has_live = world->live_count > 0;
     return send_voxels(residency, scene, layout) &&
            pel_live_update(&residency->live, residency->device, scene, world);
+=======
+bool pel_residency_fill(struct pel_residency *residency, const struct pel_scene *scene,
+                        const struct pel_layout_limits *limits, const uint8_t *active) {
+    return pel_pool_fill(&residency->pool, residency->device, scene, &residency->layout, limits,
+                         active);
+>>>>>>> main
 }
 
 bool pel_residency_bind(const struct pel_residency *residency, struct pel_kernel *kernel, int index,
                         int voxels) {
     bool good = true;
     if (residency->layout.reader == PEL_READER_BUFFER) {
+<<<<<<< HEAD
         for (int b = 0; good && b < VOXEL_BUFFERS; b++)
             good = pel_kernel_set_buffer(kernel, index++, residency->buffers[b]);
         if (good && residency->has_live)
             good = pel_kernel_set_buffer(kernel, index, residency->live.recipes.buffer) &&
                    pel_kernel_set_buffer(kernel, index + 1, residency->live.objects);
         return good;
+=======
+        const struct pel_pool *pool = &residency->pool;
+        for (int b = 0; good && b < VOXEL_BUFFERS; b++) {
+            // Every buffer argument of the kernel needs a buffer, if only of something else.
+            const struct pel_buffer *shelf =
+                pool->shelves[b].buffer ? pool->shelves[b].buffer : pool->pages;
+            good = pel_kernel_set_buffer(kernel, index++,
+                                         residency->layout.pool ? shelf : residency->buffers[b]);
+        }
+        return good &&
+               (!residency->layout.pool || pel_kernel_set_buffer(kernel, index, pool->pages));
+>>>>>>> main
     }
     uint32_t atlas_count = 0;
     for (int class = 0; good && class < VOXEL_CLASS_COUNT; class ++) {
@@ -240,6 +266,7 @@ void pel_residency_finish(struct pel_residency *residency) {
         pel_texture_destroy(residency->atlases[class]);
         residency->atlases[class] = NULL;
     }
+    pel_pool_finish(&residency->pool);
     pel_buffer_destroy(residency->ranges);
     residency->ranges = NULL;
     memset(&residency->layout, 0, sizeof residency->layout);

@@ -3,7 +3,11 @@
 #define PEL_RENDER_RESIDENCY_H
 
 #include "device/device.h"
+<<<<<<< HEAD
 #include "render/live.h"
+=======
+#include "render/pool.h"
+>>>>>>> main
 #include "world/layout.h"
 
 struct pel_residency {
@@ -14,6 +18,7 @@ struct pel_residency {
     struct pel_live live;
     bool has_live;             // this frame
     struct pel_buffer *ranges; // two floats for each cell of each slab
+    struct pel_pool pool;      // with a pool, which then has the voxels
 };
 
 // What the device can hold; `max_allocation_bytes` lowers its own limit unless 0.
@@ -30,6 +35,11 @@ bool pel_residency_update(struct pel_residency *residency, const struct pel_scen
 // (VOXELS_*) it was built for.
 bool pel_residency_bind(const struct pel_residency *residency, struct pel_kernel *kernel, int index,
                         int voxels);
+
+// With a pool: brings the bricks that are not 0 in `active`, a byte for each of the layout's
+// ranges, to the device. False: DEVICE, MEMORY.
+bool pel_residency_fill(struct pel_residency *residency, const struct pel_scene *scene,
+                        const struct pel_layout_limits *limits, const uint8_t *active);
 
 // Frees everything on the device.
 void pel_residency_finish(struct pel_residency *residency);

@@ -16,6 +16,7 @@ struct pel_variant {
     int mixing;     // MIXING_*
     int models;     // MODELS_*
     int skip;       // SKIP_*
+    bool pool;      // bricks come from a pool
     int capacity;   // parts: 1, 8 or WORLD_PART_MAX
     bool shading;   // some part is shaded
     bool table_linear;

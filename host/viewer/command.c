@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include "viewer/screen.h"
 
@@ -105,18 +106,47 @@ static void step_back(struct pel_state *state, bool back) {
     pel_state_say(state, "%s", scene ? what : pel_error_message());
 }
 
+static void save_scene(struct pel_state *state) {
+    if (!state->scene_path[0])
+        snprintf(state->scene_path, sizeof state->scene_path, "scene.json");
+    struct pel_scene *scene = pel_scene_copy(state->scene);
+    bool good = scene != NULL;
+    if (good) {
+        // The picture of the file is that of the window.
+        pel_screen_fit_scene(state, 0, scene);
+        good = pel_scene_save(scene, state->scene_path);
+    }
+    if (good)
+        pel_history_mark_saved(state->history);
+    pel_state_say(state, "%s%s", good ? "saved " : "",
+                  good ? state->scene_path : pel_error_message());
+    pel_scene_destroy(scene);
+}
+
+// A name that is not taken yet.
+static void choose_picture_name(char *path, size_t bytes) {
+    int number = 0;
+    do
+        snprintf(path, bytes, "picture-%03d.png", ++number);
+    while (access(path, F_OK) == 0 && number < 999);
+}
+
+// At the window's size, or at the one that the panel asks for.
 static void save_picture(struct pel_state *state) {
     char path[64];
-    FILE *taken = NULL;
-    int number = 0;
-    do {
-        snprintf(path, sizeof path, "picture-%03d.png", ++number);
-        taken = fopen(path, "r");
-        if (taken)
-            fclose(taken);
-    } while (taken && number < 999);
-    bool good = pel_screen_save(state, path);
-    pel_state_say(state, "%s%s", good ? "saved " : "", good ? path : pel_error_message());
+    choose_picture_name(path, sizeof path);
+    struct pel_scene *scene = pel_scene_copy(state->scene);
+    if (!scene) {
+        pel_state_say(state, "%s", pel_error_message());
+        return;
+    }
+    pel_screen_fit_scene(state, 0, scene);
+    if (state->save_size[0] > 0 && state->save_size[1] > 0) {
+        scene->render.width = state->save_size[0];
+        scene->render.height = state->save_size[1];
+    }
+    bool good = pel_worker_save(state->worker, scene, path);
+    pel_state_say(state, "%s %s", good ? "saving" : "too many pictures wait to be saved:", path);
 }
 
 static bool use_window(struct pel_state *state, enum pel_action action) {
@@ -124,6 +154,9 @@ static bool use_window(struct pel_state *state, enum pel_action action) {
     case PEL_ACTION_UNDO:
     case PEL_ACTION_REDO:
         step_back(state, action == PEL_ACTION_UNDO);
+        return true;
+    case PEL_ACTION_SAVE_SCENE:
+        save_scene(state);
         return true;
     case PEL_ACTION_SAVE_PICTURE:
         save_picture(state);
@@ -268,8 +301,9 @@ static bool change_volume(struct pel_state *state, enum pel_action action) {
 }
 
 void pel_command_do(struct pel_state *state, enum pel_action action, int number) {
-    if (!move_camera(state, action, number) && !use_window(state, action))
-        change_volume(state, action);
+    if (!move_camera(state, action, number) && !use_window(state, action) &&
+        !change_volume(state, action) && !pel_command_pose(state, action, number))
+        pel_command_look(state, action);
     state->redraw = true;
 }
 

@@ -8,6 +8,29 @@
 // Does one action; `number` counts from 0 where an action has several keys.
 void pel_command_do(struct pel_state *state, enum pel_action action, int number);
 
+// The actions that change how things are rendered; false for the others.
+bool pel_command_look(struct pel_state *state, enum pel_action action);
+
+// Those that move volumes.
+bool pel_command_pose(struct pel_state *state, enum pel_action action, int number);
+
+// A volume's pose in numbers: how far its middle is from where its file puts it, and its turn as
+// Rz Ry Rx, in degrees.
+struct pel_pose {
+    double move_mm[3], turn_deg[3];
+};
+struct pel_pose pel_command_get_pose(const struct pel_state *state);
+void pel_command_set_pose(struct pel_state *state, const struct pel_pose *pose);
+
+// Reads or writes the selected volume's transform, as the extension says; FSL's counts from the
+// first other volume. What happened is a message in the window.
+void pel_command_load_pose(struct pel_state *state, const char *path);
+void pel_command_save_pose(struct pel_state *state, const char *path);
+
+// Makes the range of values that a transfer function tells apart wider by a factor, about its
+// middle, and moves it up.
+void pel_command_level(struct pel_transfer *transfer, double wider, double up);
+
 // Adds a volume, or takes a scene in place of the present one; failure is a message in the window.
 void pel_command_open(struct pel_state *state, const char *path);
 

@@ -9,6 +9,9 @@
 // While a key is held: distances of the target, and degrees, each second.
 static const double move_per_s = 0.5, turn_deg_per_s = 60, closer_per_s = 0.7;
 
+// How far from a handle the pointer may be to take it.
+static const double reach_px = 8;
+
 // A key that was only touched still does something.
 static const double touch_s = 0.05;
 
@@ -30,6 +33,58 @@ static void place_in_view(const struct pel_state *state, int view, const struct 
 
 // ---- The mouse ---------------------------------------------------------------------------------
 
+// The selected volume's handle under the pointer, if there is one.
+static bool take_handle(struct pel_state *state) {
+    struct pel_gizmo gizmo;
+    if (state->drag_view != 0 || !pel_state_gizmo(state, &gizmo))
+        return false;
+    enum pel_handle handle =
+        pel_gizmo_hit(&gizmo, state->drag_px, reach_px * state->windows[0].scale);
+    const struct pel_instance *instance = &state->scene->instances[state->selected];
+    return handle != PEL_HANDLE_NONE && pel_handle_begin(&state->handle_drag, &gizmo, handle,
+                                                         state->drag_px, &instance->transform);
+}
+
+static bool begin_levels(struct pel_state *state) {
+    pel_transfer_destroy(state->levels_before);
+    state->levels_before = pel_transfer_copy(state->scene->instances[state->selected].transfer);
+    if (!state->levels_before)
+        pel_state_say(state, "%s", pel_error_message());
+    return state->levels_before != NULL;
+}
+
+// The point under the pointer becomes what the camera turns about.
+static void look_at_pointer(struct pel_state *state) {
+    struct pel_view view;
+    struct pel_pick pick;
+    if (!pel_state_view(state, state->drag_view, &view))
+        return;
+    pel_pick(&pick, state->scene, &view, state->drag_px);
+    if (!pick.hit) {
+        pel_state_say(state, "there is nothing under the pointer");
+        return;
+    }
+    struct pel_camera camera = state->navigation.camera;
+    for (int i = 0; i < 3; i++) {
+        camera.eye[i] += pick.position[i] - camera.target[i];
+        camera.target[i] = pick.position[i];
+    }
+    state->selected = pick.instance;
+    pel_navigation_go(&state->navigation, &camera, 0.3);
+    pel_state_move_camera(state);
+}
+
+static void begin_left_drag(struct pel_state *state, int modifiers) {
+    if (modifiers & PEL_CONTROL)
+        look_at_pointer(state);
+    else if (modifiers & PEL_SHIFT)
+        state->drag = begin_levels(state) ? PEL_DRAG_LEVELS : PEL_DRAG_NONE;
+    else if (take_handle(state))
+        state->drag = PEL_DRAG_HANDLE;
+    else
+        state->drag = PEL_DRAG_TURN;
+}
+
 static void begin_drag(struct pel_state *state, const struct pel_event *event) {
     int view = find_view(state, event->window, event->x, event->y);
     if (view < 0)
@@ -38,10 +93,12 @@ static void begin_drag(struct pel_state *state, const struct pel_event *event) {
     pel_state_begin_gesture(state);
     state->drag_view = view;
     place_in_view(state, view, event, state->drag_px);
+    for (int i = 0; i < 2; i++)
+        state->drag_from_px[i] = state->drag_px[i];
     pel_navigation_begin(&state->navigation);
     switch (event->button) {
     case PEL_BUTTON_LEFT:
-        state->drag = PEL_DRAG_TURN;
+        begin_left_drag(state, event->modifiers);
         break;
     case PEL_BUTTON_RIGHT:
         state->drag = shift ? PEL_DRAG_TILT : PEL_DRAG_PAN;
@@ -50,6 +107,34 @@ static void begin_drag(struct pel_state *state, const struct pel_event *event) {
         state->drag = PEL_DRAG_ZOOM;
         break;
     }
+}
+
+static void drag_handle(struct pel_state *state, const double to_px[2], int modifiers) {
+    struct pel_instance *instance = &state->scene->instances[state->selected];
+    bool turns = state->handle_drag.handle >= PEL_HANDLE_TURN_X &&
+                 state->handle_drag.handle != PEL_HANDLE_MOVE_VIEW;
+    double snap = modifiers & PEL_CONTROL ? (turns ? 5 : 1) : 0;
+    if (!pel_handle_drag(&state->handle_drag, to_px, snap, &instance->transform))
+        return;
+    pel_state_say(state, "%s: %.3g %s", instance->name, state->handle_drag.amount,
+                  turns ? "degrees" : "mm");
+    pel_state_change(state, turns ? "turn a volume" : "move a volume");
+}
+
+// To the right the window gets wider, upwards the level lower, so that more is seen.
+static void drag_levels(struct pel_state *state, const double to_px[2]) {
+    const struct pel_rectangle *place = &state->views[state->drag_view].place;
+    struct pel_instance *instance = &state->scene->instances[state->selected];
+    struct pel_transfer *transfer = pel_transfer_copy(state->levels_before);
+    if (!transfer)
+        return;
+    double right = (to_px[0] - state->drag_from_px[0]) / place->width;
+    double down = (to_px[1] - state->drag_from_px[1]) / place->height;
+    const struct pel_statistics *statistics = &state->scene->statistics[instance->volume];
+    pel_command_level(transfer, exp(2 * right), down * (statistics->max - statistics->min));
+    pel_transfer_destroy(instance->transfer);
+    instance->transfer = transfer;
+    pel_state_change(state, "window and level");
 }
 
 static void drag(struct pel_state *state, const struct pel_event *event) {
@@ -70,6 +155,12 @@ static void drag(struct pel_state *state, const struct pel_event *event) {
     case PEL_DRAG_TILT:
         pel_navigation_roll(&state->navigation, size, state->drag_px, to_px);
         break;
+    case PEL_DRAG_HANDLE:
+        drag_handle(state, to_px, event->modifiers);
+        return;
+    case PEL_DRAG_LEVELS:
+        drag_levels(state, to_px);
+        return;
     default:
         return;
     }
@@ -170,10 +261,6 @@ void pel_hand_tick(struct pel_state *state, double seconds) {
 void pel_hand_react(struct pel_state *state, const struct pel_event *event) {
     switch (event->kind) {
     case PEL_EVENT_POINTER:
-        state->pointer_px[0] = event->x;
-        state->pointer_px[1] = event->y;
-        state->pointer_window = event->window;
-        state->redraw = true;
         if (state->drag != PEL_DRAG_NONE)
             drag(state, event);
         break;

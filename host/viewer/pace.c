@@ -33,6 +33,7 @@ struct pel_render_settings pel_pace_apply(const struct pel_render_settings *sett
     applied.width = (settings->width + quality->divisor - 1) / quality->divisor;
     applied.height = (settings->height + quality->divisor - 1) / quality->divisor;
     applied.step *= quality->step_factor;
+    applied.step_mm *= quality->step_factor;
     if (quality->supersampling < own_supersampling(settings))
         applied.supersampling.n = quality->supersampling;
     if (quality->supersampling == 1)

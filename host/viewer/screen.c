@@ -5,22 +5,38 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "viewer/panels.h"
+
 bool pel_screen_open(struct pel_state *state, char *sentence, size_t bytes) {
     const struct pel_viewer_options *options = state->options;
+    // The panels stand beside a picture of the scene's size; a size that was asked for is the
+    // whole.
     const struct pel_render_settings *settings = &options->scene->render;
     struct pel_window_options wanted = {.title = "Pellucid", .monitor = options->full_screen};
-    wanted.place[2] = options->size[0] > 0 ? options->size[0] : settings->width;
-    wanted.place[3] = options->size[1] > 0 ? options->size[1] : settings->height;
+    // The panels stand beside a picture of the scene's size; a size that was asked for is the
+    // whole.
+    wanted.place[2] = settings->width + (state->panels ? PEL_PANELS_COLUMN : 0);
+    wanted.place[3] = settings->height;
+    if (options->size[0] > 0)
+        memcpy(&wanted.place[2], options->size, sizeof options->size);
     struct pel_pane_window *window = &state->windows[0];
     window->window = pel_window_create(&wanted, &state->queue, sentence, bytes);
     if (!window->window)
         return false;
     state->window_count = 1;
     window->present = pel_present_create(sentence, bytes);
-    return window->present != NULL;
+    if (!window->present)
+        return false;
+    pel_window_pixels(window->window, window->pixels, &window->scale);
+    state->with_panels = pel_panels_start(state);
+    return true;
 }
 
 void pel_screen_close(struct pel_state *state) {
+    if (state->with_panels) {
+        pel_window_draw_on(state->windows[0].window);
+        pel_panels_stop();
+    }
     for (int i = 0; i < state->window_count; i++) {
         pel_window_draw_on(state->windows[i].window);
         pel_present_destroy(state->windows[i].present);
@@ -35,8 +51,9 @@ bool pel_screen_layout(struct pel_state *state) {
     struct pel_pane_window *window = &state->windows[0];
     pel_window_pixels(window->window, window->pixels, &window->scale);
     state->view_count = 1;
+    int left = pel_panels_width(state);
     state->views[0] =
-        (struct pel_screen_view){.place = {0, 0, window->pixels[0], window->pixels[1]}};
+        (struct pel_screen_view){.place = {left, 0, window->pixels[0] - left, window->pixels[1]}};
     // A window that is minimised has no pixels.
     if (state->views[0].place.width < 1 || state->views[0].place.height < 1)
         memcpy(state->views, views, sizeof views);
@@ -77,19 +94,23 @@ void pel_screen_take(struct pel_state *state, const struct pel_worker_picture *p
     }
 }
 
-// Draws one window into whatever drawing goes to.
-static void draw_window(struct pel_state *state, int number) {
+// Draws one window into whatever drawing goes to; `seconds` after the last time.
+static void draw_window(struct pel_state *state, int number, double seconds) {
     const struct pel_pane_window *window = &state->windows[number];
     pel_present_begin(window->present, window->pixels);
     for (int i = 0; i < state->view_count; i++)
         if (state->views[i].window == number)
             pel_present_draw(window->present, i, &state->views[i].place);
+    if (number == 0 && state->with_panels)
+        pel_panels_draw(state, seconds);
 }
 
 void pel_screen_draw(struct pel_state *state) {
+    double seconds = (state->now_ms - state->drawn_ms) / 1e3;
+    state->drawn_ms = state->now_ms;
     for (int i = 0; i < state->window_count; i++) {
         pel_window_draw_on(state->windows[i].window);
-        draw_window(state, i);
+        draw_window(state, i, seconds);
     }
     for (int i = 0; i < state->window_count; i++)
         pel_window_show(state->windows[i].window);
@@ -122,7 +143,7 @@ bool pel_screen_save(struct pel_state *state, const char *path) {
         pel_window_draw_on(window->window);
         if (!pel_present_catch(window->present, window->pixels))
             continue;
-        draw_window(state, i);
+        draw_window(state, i, 0);
         uint8_t *rgb = pel_present_caught(window->present);
         if (rgb)
             copy_pixels(image, left, window->pixels, rgb);

@@ -42,6 +42,18 @@ void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene) {
     pel_state_renew(state);
 }
 
+bool pel_state_view(const struct pel_state *state, int number, struct pel_view *view) {
+    const struct pel_rectangle *place = &state->views[number].place;
+    return pel_view_make(view, &state->scene->camera, place->width, place->height);
+}
+
+bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
+    struct pel_view view;
+    return state->handles && pel_state_view(state, 0, &view) &&
+           pel_gizmo_make(gizmo, state->scene, state->selected, &view, 90 * state->windows[0].scale,
+                          false);
+}
+
 double pel_state_aspect(const struct pel_state *state) {
     const struct pel_rectangle *place = &state->views[0].place;
     return place->height > 0 ? (double)place->width / place->height : 1;

@@ -3,8 +3,10 @@
 #ifndef PEL_VIEWER_STATE_H
 #define PEL_VIEWER_STATE_H
 
+#include "viewer/handles.h"
 #include "viewer/history.h"
 #include "viewer/navigation.h"
+#include "viewer/pick.h"
 #include "viewer/present.h"
 #include "viewer/viewer.h"
 #include "viewer/window.h"
@@ -27,7 +29,15 @@ struct pel_screen_view {
 };
 
 // What the hand is doing in the picture.
-enum pel_drag { PEL_DRAG_NONE, PEL_DRAG_TURN, PEL_DRAG_PAN, PEL_DRAG_ZOOM, PEL_DRAG_TILT };
+enum pel_drag {
+    PEL_DRAG_NONE,
+    PEL_DRAG_TURN,
+    PEL_DRAG_PAN,
+    PEL_DRAG_ZOOM,
+    PEL_DRAG_TILT,
+    PEL_DRAG_HANDLE,
+    PEL_DRAG_LEVELS, // window and level of the selected volume
+};
 
 struct pel_state {
     const struct pel_viewer_options *options;
@@ -35,13 +45,21 @@ struct pel_state {
     struct pel_history *history;
     struct pel_navigation navigation; // its camera is the scene's
     char scene_path[4096];            // where the scene is saved; "" = not yet
+    char pose_path[1024];             // of the transform that the panel loads and saves
     int selected;                     // instance
+    int preset;                       // the last one that a key chose
 
     // The hand.
-    uint32_t held;        // bits of the actions whose keys are down
-    enum pel_drag drag;   //
-    int drag_view;        // where it began
-    double drag_px[2];    // where the pointer was last, from the view's corner
+    uint32_t held;      // bits of the actions whose keys are down
+    enum pel_drag drag; //
+    int drag_view;      // where it began
+    double drag_px[2];  // where the pointer was last, from the view's corner
+    bool handles;       // are shown
+    struct pel_handle_drag handle_drag;
+    struct pel_transfer *levels_before; // owned; the transfer function when a drag of levels began
+    double drag_from_px[2];             // where the drag began
+    struct pel_pick pick;               // what is under the pointer
+    bool picked;                        // since it moved
     uint64_t gesture;     // number of the present drag or key press: its changes are one step
     double pointer_px[2]; // where the pointer is, in the window
     int pointer_window;   //
@@ -60,12 +78,18 @@ struct pel_state {
     bool quick;             // only a quick picture of `sent` was asked for
     struct pel_worker_picture shown; // what is on the screen, without its pixels
     struct pel_worker_status status;
-    bool panels, readouts, help;
-    int shown_count; // pictures so far
-    bool redraw;     // the windows must be drawn again
+    int saved_count;             // pictures that the worker saved, and of which the user was told
+    int save_size[2];            // of the next one; 0 = as the window's
+    bool with_panels;            // there is something that can draw them
+    bool panels, readouts, help; // whether they are shown
+    double drawn_ms;             // when the windows were drawn last
+    int shown_count;             // pictures so far
+    bool redraw;                 // the windows must be drawn again
 
     char message[PEL_STATE_SENTENCE]; // to the user
     double message_ms;                // when it was said
+    struct pel_script *script;        // NULL unless one is played
+    struct pel_latency *latency;      // NULL unless it is measured
     bool quit;
     double now_ms;
 };
@@ -85,6 +109,12 @@ void pel_state_move_camera(struct pel_state *state);
 
 // Takes another scene in place of the present one, which is destroyed.
 void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene);
+
+// The view of the camera as one of the pictures shows it; false when there is none.
+bool pel_state_view(const struct pel_state *state, int number, struct pel_view *view);
+
+// The gizmo of the selected volume in the first picture; false when it is not shown.
+bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo);
 
 // Width over height of the picture that the camera is for.
 double pel_state_aspect(const struct pel_state *state);

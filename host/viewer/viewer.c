@@ -11,7 +11,10 @@
 
 #include "viewer/command.h"
 #include "viewer/hand.h"
+#include "viewer/latency.h"
+#include "viewer/panels.h"
 #include "viewer/screen.h"
+#include "viewer/script.h"
 #include "viewer/state.h"
 
 // What has not changed for this long is at rest.
@@ -76,9 +79,34 @@ static void take_picture(struct pel_state *state) {
     pel_worker_picture_destroy(picture);
 }
 
+static void ask_worker(struct pel_state *state) {
+    pel_worker_ask(state->worker, &state->status);
+    if (state->saved_count != state->status.saved_count)
+        pel_state_say(state, "%s", state->status.saved);
+    state->saved_count = state->status.saved_count;
+}
+
 // ---- Events ------------------------------------------------------------------------------------
 
+// The panels let go of what began in the picture, and the other way round.
+static bool is_for_panels(struct pel_state *state, const struct pel_event *event) {
+    if (!state->with_panels || event->window != 0)
+        return false;
+    state->redraw = true;
+    return pel_panels_take_event(event) && state->drag == PEL_DRAG_NONE &&
+           !(event->kind == PEL_EVENT_KEY && !event->down);
+}
+
 static void react(struct pel_state *state, const struct pel_event *event) {
+    if (event->kind == PEL_EVENT_POINTER) {
+        state->pointer_px[0] = event->x;
+        state->pointer_px[1] = event->y;
+        state->pointer_window = event->window;
+        state->picked = false;
+        state->redraw = true;
+    }
+    if (is_for_panels(state, event))
+        return;
     switch (event->kind) {
     case PEL_EVENT_CLOSE:
         state->quit = true;
@@ -106,21 +134,71 @@ static void react_to_all(struct pel_state *state) {
         react(state, &event);
         free(event.path);
         more = event.kind != PEL_EVENT_BUTTON && event.kind != PEL_EVENT_KEY;
+        // And they learn where the pointer is before it is pressed.
+        if (event.kind == PEL_EVENT_POINTER && state->queue.count > 0 &&
+            state->queue.events[state->queue.first].kind == PEL_EVENT_BUTTON)
+            more = false;
     }
+}
+
+// ---- Scripts -----------------------------------------------------------------------------------
+
+static bool is_resting(const struct pel_state *state) {
+    if (state->version != state->sent || state->sent_moving || state->queue.count > 0 ||
+        pel_hand_is_busy(state) || state->drag != PEL_DRAG_NONE)
+        return false;
+    return state->status.sentence[0] ||
+           (!state->status.busy && state->shown.final && state->shown.id == state->version);
+}
+
+static void do_step(struct pel_state *state, const struct pel_script_step *step) {
+    struct pel_bounds bounds;
+    struct pel_camera camera = step->camera;
+    struct pel_event event = step->event;
+    switch (step->kind) {
+    case PEL_SCRIPT_EVENT:
+        event.path = step->text ? strdup(step->text) : NULL;
+        if (!pel_event_push(&state->queue, &event))
+            free(event.path);
+        break;
+    case PEL_SCRIPT_CAMERA:
+        if (camera.fov_deg == 0)
+            camera.fov_deg = state->navigation.camera.fov_deg;
+        pel_navigation_go(&state->navigation, &camera, step->seconds);
+        pel_state_move_camera(state);
+        break;
+    case PEL_SCRIPT_VIEW:
+        if (!pel_scene_bounds(state->scene, &bounds) ||
+            !pel_navigation_view(&state->navigation, step->text, &bounds, pel_state_aspect(state),
+                                 step->seconds))
+            pel_state_say(state, "no view '%s'", step->text);
+        pel_state_move_camera(state);
+        break;
+    case PEL_SCRIPT_SCREENSHOT:
+        if (!pel_screen_save(state, step->text))
+            pel_state_say(state, "%s", pel_error_message());
+        break;
+    default:
+        break;
+    }
+}
+
+// Does what is due. A screenshot shows what was drawn, so no step follows another unseen.
+static void play_script(struct pel_state *state) {
+    const struct pel_script_step *step =
+        state->script ? pel_script_next(state->script, state->now_ms / 1e3, is_resting(state))
+                      : NULL;
+    if (step)
+        do_step(state, step);
 }
 
 // ---- The loop ----------------------------------------------------------------------------------
 
-static bool is_resting(const struct pel_state *state) {
-    return state->version == state->sent && !state->sent_moving &&
-           (!state->status.busy || state->status.sentence[0]) &&
-           (state->status.sentence[0] || (state->shown.final && state->shown.id == state->version));
-}
-
 static double wait_seconds(const struct pel_state *state) {
     if (state->redraw || state->queue.count > 0)
         return 0;
-    if (pel_hand_is_busy(state))
+    if (pel_hand_is_busy(state) || state->latency ||
+        (state->script && !pel_script_is_over(state->script)))
         return 0.005;
     if (state->version != state->sent || state->sent_moving)
         return 0.02;
@@ -129,10 +207,15 @@ static double wait_seconds(const struct pel_state *state) {
 
 static bool is_over(const struct pel_state *state) {
     const struct pel_viewer_options *options = state->options;
+    // The last picture is complete, even if the hand was quicker.
     if (state->quit)
-        return true;
+        return !options->screenshot || is_resting(state);
+    if (state->latency)
+        return pel_latency_is_over(state->latency);
     if (options->frames > 0 && state->shown_count >= options->frames)
         return true;
+    if (state->script && !pel_script_is_over(state->script))
+        return false;
     return options->screenshot && options->frames == 0 && is_resting(state);
 }
 
@@ -142,15 +225,22 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
         double now_ms = pel_state_clock_ms();
         pel_hand_tick(state, (now_ms - state->now_ms) / 1e3);
         state->now_ms = now_ms;
+        if (state->latency)
+            pel_latency_begin_turn(state->latency, state);
+        play_script(state);
         react_to_all(state);
         ask_for_picture(state);
         take_picture(state);
         bool was_busy = state->status.busy;
-        pel_worker_ask(state->worker, &state->status);
+        ask_worker(state);
         if (state->redraw || was_busy || state->status.busy)
             pel_screen_draw(state);
         state->redraw = false;
+        if (state->latency)
+            pel_latency_end_turn(state->latency, state);
     }
+    if (state->latency)
+        pel_latency_report(state->latency, state, state->options->latency);
     const char *path = state->options->screenshot;
     if (path && !pel_screen_save(state, path))
         return fail(sentence, bytes, pel_error_code(), pel_error_message());
@@ -158,6 +248,7 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
 }
 
 static enum pel_error start(struct pel_state *state, char *sentence, size_t bytes) {
+    state->panels = state->readouts = !state->options->bare;
     char reason[256];
     if (!pel_window_start(reason, sizeof reason) ||
         !pel_screen_open(state, reason, sizeof reason)) {
@@ -171,11 +262,19 @@ static enum pel_error start(struct pel_state *state, char *sentence, size_t byte
     pel_navigation_start(&state->navigation, &state->scene->camera);
     if (state->options->scene_path)
         snprintf(state->scene_path, sizeof state->scene_path, "%s", state->options->scene_path);
-    state->panels = state->readouts = !state->options->bare;
     state->now_ms = pel_state_clock_ms();
+    if (state->options->script) {
+        state->script = pel_script_load(state->options->script, sentence, bytes);
+        if (!state->script)
+            return PEL_ERROR_FORMAT;
+    }
     state->worker = pel_worker_create(&state->options->renderer, pel_window_wake);
     if (!state->worker)
         return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot start the rendering thread");
+    if (state->options->latency)
+        state->latency = pel_latency_create(state->options->latency->inputs);
+    if (state->options->latency && !state->latency)
+        return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot allocate the measurement");
     pel_screen_layout(state);
     pel_state_renew(state);
     return PEL_OK;
@@ -195,6 +294,9 @@ enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *se
     pel_window_stop();
     pel_event_finish(&state->queue);
     pel_history_destroy(state->history);
+    pel_latency_destroy(state->latency);
+    pel_script_destroy(state->script);
+    pel_transfer_destroy(state->levels_before);
     pel_scene_destroy(state->scene);
     free(state);
     return code;

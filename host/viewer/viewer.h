@@ -4,6 +4,15 @@
 
 #include "pellucid.h"
 
+// How long it took from inputs to pictures that show them (latency.h).
+struct pel_viewer_latency {
+    int inputs;              // wanted
+    int measured, in_flight; // that were measured, and that came while a frame was in flight
+    int lost;                // that did nothing
+    double full_ms;          // of the first frame of full quality
+    double median_ms, worst_ms;
+};
+
 struct pel_viewer_options {
     struct pel_scene *scene; // borrowed; the viewer works on a copy
     const char *scene_path;  // where the scene came from and is saved to; NULL = from volumes
@@ -14,7 +23,8 @@ struct pel_viewer_options {
     const char *script;     // events to replay; NULL = none
     const char *screenshot; // the window's picture goes there at the end; NULL = nowhere
     int frames;             // ends after so many pictures were shown; 0 = does not
-    double rate;            // pictures per second to hold while things move; 0 = 30
+    struct pel_viewer_latency *latency; // measured, and then the end; NULL = is not
+    double rate;                        // pictures per second to hold while things move; 0 = 30
 };
 
 // Opens the window and returns when it was closed, or when script and frames are at their end:

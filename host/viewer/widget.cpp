@@ -63,6 +63,8 @@ bool pel_widget_start(double scale) {
     ImFontConfig font;
     font.SizePixels = static_cast<float>(13 * scale);
     io.Fonts->AddFontDefault(&font);
+    // Until the pointer is seen it is nowhere.
+    io.MousePos = ImVec2(-1e6f, -1e6f);
     style(static_cast<float>(scale));
     map_keys(io);
     return ImGui_ImplOpenGL3_Init("#version 330 core");
@@ -170,13 +172,6 @@ void pel_widget_gap(void) {
     ImGui::Spacing();
 }
 
-void pel_widget_disable(bool disabled) {
-    if (disabled)
-        ImGui::BeginDisabled();
-    else
-        ImGui::EndDisabled();
-}
-
 // ---- Widgets -----------------------------------------------------------------------------------
 
 void pel_widget_text(const char *text) {
@@ -204,6 +199,13 @@ void pel_widget_hint(const char *text) {
 
 bool pel_widget_button(const char *label) {
     return ImGui::Button(label);
+}
+
+bool pel_widget_button_if(bool enabled, const char *label) {
+    ImGui::BeginDisabled(!enabled);
+    bool pressed = ImGui::Button(label);
+    ImGui::EndDisabled();
+    return pressed;
 }
 
 bool pel_widget_check(const char *label, bool *value) {

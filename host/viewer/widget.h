@@ -42,7 +42,6 @@ void pel_widget_push(int number);
 void pel_widget_pop(void);
 void pel_widget_same_line(void);
 void pel_widget_gap(void);
-void pel_widget_disable(bool disabled); // until the next call with the opposite
 
 // ---- Widgets -----------------------------------------------------------------------------------
 
@@ -51,6 +50,7 @@ void pel_widget_quiet_text(const char *text); // dimmer, wrapped
 void pel_widget_row(const char *left, const char *right, double indent);
 void pel_widget_hint(const char *text); // of the widget before, when the pointer rests on it
 bool pel_widget_button(const char *label);
+bool pel_widget_button_if(bool enabled, const char *label);
 bool pel_widget_check(const char *label, bool *value);
 bool pel_widget_choose(const char *label, const char *const *names, int *index); // ends with NULL
 bool pel_widget_select(const char *label, bool selected, double width);          // a line of a list

@@ -12,11 +12,15 @@
 #include <string.h>
 #include <time.h>
 
+#include "viewer/save.h"
+
 // How soon a frame in flight notices a new request.
 static const double batch_ms = 25;
 
 // A quick picture that takes this many times what it should gives way.
 static const double overdue = 2;
+
+enum { SAVES = 8 };
 
 struct pel_worker {
     pthread_t thread;
@@ -25,8 +29,15 @@ struct pel_worker {
     struct pel_worker_request pending; // view_count is 0 when there is none
     struct pel_worker_picture *ready;
     char sentence[PEL_WORKER_SENTENCE];
+    struct {
+        struct pel_scene *scene; // owned
+        char *path;              // owned
+    } saves[SAVES];              // the oldest first
+    int save_count, saved_count;
+    char saved[PEL_WORKER_SENTENCE];
     bool quit, busy;
-    double begin_ms;         // of the frame in flight
+    double begin_ms; // of the frame in flight
+    atomic_bool ending;
     atomic_bool overtaken;   // a request is pending, or the end is
     _Atomic double finished; // share of the frame in flight
     void (*wake)(void);      //
@@ -124,6 +135,10 @@ static struct pel_image *render_view(struct frame *frame,
         .progress = go_on, .user = frame, .batch_ms = batch_ms};
     struct pel_scene seen = *scene; // borrows everything
     seen.render = pel_pace_apply(&scene->render, &frame->quality);
+    for (int i = 0; i < seen.instance_count; i++) {
+        seen.instances[i].step *= frame->quality.step_factor;
+        seen.instances[i].step_mm *= frame->quality.step_factor;
+    }
     // Squeezed eyes need an even size.
     if (scene->stereo.kind == PEL_STEREO_SIDE_BY_SIDE_HALF)
         seen.render.width += seen.render.width & 1;
@@ -227,30 +242,73 @@ static bool show(struct pel_worker *worker, const struct pel_worker_request *req
     return false;
 }
 
-static void work(struct pel_worker *worker, const struct pel_worker_request *request) {
+// Works on a request until it is done with: refined, failed, or only meant to be quick. False when
+// something came between.
+static bool work(struct pel_worker *worker, const struct pel_worker_request *request) {
     if (!worker->renderer)
         worker->renderer = pel_renderer_create(&worker->options);
     if (!worker->renderer) {
         say(worker, pel_error_message());
-        return;
+        return true;
     }
     const struct pel_render_settings *settings = &request->scenes[0]->render;
     struct pel_quality quality = pel_pace_choose(&worker->pace, settings, request->target_ms);
     struct pel_quality next;
     bool more = pel_pace_refine(&worker->pace, settings, &quality, &next);
-    bool good = show(worker, request, &quality, true, !more);
-    while (good && more && !request->moving && !atomic_load(&worker->overtaken)) {
+    if (!show(worker, request, &quality, true, !more))
+        return !atomic_load(&worker->overtaken);
+    while (more && !request->moving) {
+        if (atomic_load(&worker->overtaken))
+            return false;
         quality = next;
         // Whether this is the last stage may change with what is learned; its quality tells.
         more = pel_pace_refine(&worker->pace, settings, &quality, &next);
-        good = show(worker, request, &quality, false, !more);
+        if (!show(worker, request, &quality, false, !more))
+            return !atomic_load(&worker->overtaken);
     }
+    return true;
+}
+
+static bool go_on_saving(double finished, void *user) {
+    struct pel_worker *worker = user;
+    atomic_store(&worker->finished, finished);
+    return !atomic_load(&worker->ending);
+}
+
+// Saves the oldest that waits, with the mutex locked before and after.
+static void save_one(struct pel_worker *worker) {
+    struct pel_scene *scene = worker->saves[0].scene;
+    char *path = worker->saves[0].path;
+    worker->begin_ms = now_ms();
+    atomic_store(&worker->finished, 0);
+    pthread_mutex_unlock(&worker->mutex);
+    if (!worker->renderer)
+        worker->renderer = pel_renderer_create(&worker->options);
+    const struct pel_render_options options = {
+        .progress = go_on_saving, .user = worker, .batch_ms = batch_ms};
+    bool good = worker->renderer && pel_save_picture(worker->renderer, scene, path, &options);
+    char sentence[PEL_WORKER_SENTENCE];
+    snprintf(sentence, sizeof sentence, "%s%s", good ? "saved " : "",
+             good ? path : pel_error_message());
+    pel_scene_destroy(scene);
+    free(path);
+    pthread_mutex_lock(&worker->mutex);
+    memmove(&worker->saves[0], &worker->saves[1], (SAVES - 1) * sizeof worker->saves[0]);
+    worker->save_count--;
+    memcpy(worker->saved, sentence, sizeof sentence);
+    worker->saved_count++;
+    worker->wake();
 }
 
 static void *run(void *user) {
     struct pel_worker *worker = user;
     pthread_mutex_lock(&worker->mutex);
     while (!worker->quit) {
+        worker->busy = true;
+        if (worker->save_count > 0) {
+            save_one(worker);
+            continue;
+        }
         if (worker->pending.view_count == 0) {
             worker->busy = false;
             pthread_cond_wait(&worker->changed, &worker->mutex);
@@ -259,12 +317,15 @@ static void *run(void *user) {
         struct pel_worker_request request = worker->pending;
         worker->pending = (struct pel_worker_request){0};
         atomic_store(&worker->overtaken, false);
-        worker->busy = true;
         worker->begin_ms = now_ms();
         pthread_mutex_unlock(&worker->mutex);
-        work(worker, &request);
-        request_finish(&request);
+        bool done = work(worker, &request);
         pthread_mutex_lock(&worker->mutex);
+        // After a picture was saved, the one on the screen goes on where nothing newer came.
+        if (!done && worker->pending.view_count == 0)
+            worker->pending = request;
+        else
+            request_finish(&request);
     }
     pthread_mutex_unlock(&worker->mutex);
     pel_renderer_destroy(worker->renderer);
@@ -283,10 +344,12 @@ void pel_worker_picture_destroy(struct pel_worker_picture *picture) {
 
 void pel_worker_ask(struct pel_worker *worker, struct pel_worker_status *status) {
     pthread_mutex_lock(&worker->mutex);
-    status->busy = worker->busy || worker->pending.view_count > 0;
+    status->busy = worker->busy || worker->pending.view_count > 0 || worker->save_count > 0;
     status->running_ms = worker->busy ? now_ms() - worker->begin_ms : 0;
     status->finished = atomic_load(&worker->finished);
     memcpy(status->sentence, worker->sentence, sizeof status->sentence);
+    memcpy(status->saved, worker->saved, sizeof status->saved);
+    status->saved_count = worker->saved_count;
     pthread_mutex_unlock(&worker->mutex);
 }
 
@@ -306,6 +369,25 @@ void pel_worker_submit(struct pel_worker *worker, const struct pel_worker_reques
     pthread_cond_signal(&worker->changed);
     pthread_mutex_unlock(&worker->mutex);
     request_finish(&old);
+}
+
+bool pel_worker_save(struct pel_worker *worker, struct pel_scene *scene, const char *path) {
+    char *copy = strdup(path);
+    pthread_mutex_lock(&worker->mutex);
+    bool good = copy && worker->save_count < SAVES;
+    if (good) {
+        worker->saves[worker->save_count].scene = scene;
+        worker->saves[worker->save_count++].path = copy;
+        // The picture on the screen waits.
+        atomic_store(&worker->overtaken, true);
+        pthread_cond_signal(&worker->changed);
+    }
+    pthread_mutex_unlock(&worker->mutex);
+    if (!good) {
+        pel_scene_destroy(scene);
+        free(copy);
+    }
+    return good;
 }
 
 struct pel_worker *pel_worker_create(const struct pel_renderer_options *options,
@@ -339,11 +421,16 @@ void pel_worker_destroy(struct pel_worker *worker) {
         return;
     pthread_mutex_lock(&worker->mutex);
     worker->quit = true;
+    atomic_store(&worker->ending, true);
     atomic_store(&worker->overtaken, true);
     pthread_cond_signal(&worker->changed);
     pthread_mutex_unlock(&worker->mutex);
     pthread_join(worker->thread, NULL);
     request_finish(&worker->pending);
+    for (int i = 0; i < worker->save_count; i++) {
+        pel_scene_destroy(worker->saves[i].scene);
+        free(worker->saves[i].path);
+    }
     pel_worker_picture_destroy(worker->ready);
     pthread_cond_destroy(&worker->changed);
     pthread_mutex_destroy(&worker->mutex);

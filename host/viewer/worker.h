@@ -45,6 +45,8 @@ struct pel_worker_status {
     bool busy;
     double finished, running_ms;        // of the frame in flight
     char sentence[PEL_WORKER_SENTENCE]; // why the newest request failed, or ""
+    char saved[PEL_WORKER_SENTENCE];    // what became of the newest picture that was saved
+    int saved_count;                    // how many were, or failed
 };
 
 // Starts the thread, which opens the device by itself: that it cannot is a sentence in the status.
@@ -55,6 +57,10 @@ void pel_worker_destroy(struct pel_worker *worker);
 
 // Takes the request's scenes.
 void pel_worker_submit(struct pel_worker *worker, const struct pel_worker_request *request);
+
+// Saves a picture of the scene, which it takes, at its own size and quality, before it goes on with
+// the requests. False when memory ran out or too many wait already; the scene is then destroyed.
+bool pel_worker_save(struct pel_worker *worker, struct pel_scene *scene, const char *path);
 
 // The newest picture if there is one that was not taken yet, else NULL. The caller owns it.
 struct pel_worker_picture *pel_worker_take(struct pel_worker *worker);

@@ -6,8 +6,13 @@
 
 #include "accel/grid.h"
 #include "base/error.h"
+<<<<<<< HEAD
 #include "volume/hypertexture.h"
+=======
+#include "shared/grid.h"
+>>>>>>> main
 #include "world/brick.h"
+#include "world/model.h"
 
 // Buffers are addressed with 31 bits per lane, whatever the device would allow.
 static const uint64_t buffer_limit = (uint64_t)1 << 31;
@@ -90,7 +95,7 @@ static struct pel_slab *add_slab(struct pel_layout *layout, const struct pel_sce
     size_t dims[3], cells = 1;
     pel_slab_dims(slab, scene->volumes[v], dims);
     for (int i = 0; i < 3; i++)
-        cells *= pel_grid_cells(dims[i]);
+        cells *= pel_grid_cells(dims[i], (size_t)layout->cell_side);
     layout->range_count += cells;
     return slab;
 }
@@ -237,6 +242,7 @@ static bool plan_images(struct pel_layout *layout, const struct pel_scene *scene
     return true;
 }
 
+<<<<<<< HEAD
 bool pel_layout_plan(struct pel_layout *layout, const struct pel_scene *scene,
                      const struct pel_layout_limits *limits, enum pel_reader reader,
                      enum pel_reader preferred) {
@@ -244,8 +250,59 @@ bool pel_layout_plan(struct pel_layout *layout, const struct pel_scene *scene,
     for (int v = 0; v < scene->volume_count; v++)
         if (scene->volumes[v]->hypertexture)
             reader = PEL_READER_BUFFER;
+=======
+// How far from a sample that can be seen voxels are read: gradients and cubic filters look around.
+static int pool_margin(const struct pel_scene *scene) {
+    int margin = 0;
+    for (int k = 0; k < scene->instance_count; k++) {
+        const struct pel_instance *instance = &scene->instances[k];
+        int reach =
+            instance->filter == PEL_FILTER_LINEAR || instance->filter == PEL_FILTER_NEAREST ? 0 : 2;
+        if (instance->material.shading != PEL_SHADING_NONE)
+            reach += 2;
+        margin = reach > margin ? reach : margin;
+    }
+    return margin;
+}
+
+// Volumes whole, with a page for each brick. How many bricks there are to be depends on what can be
+// seen, so that is found out when they are sent.
+static bool plan_pool(struct pel_layout *layout, const struct pel_scene *scene) {
+    memset(layout, 0, sizeof *layout);
+    layout->reader = PEL_READER_BUFFER;
+    layout->pool = true;
+    layout->cell_side = BRICK_SIDE;
+    layout->margin = pool_margin(scene);
+    for (int v = 0; v < scene->volume_count; v++) {
+        struct pel_slab *slab = add_slab(layout, scene, v, 0, scene->volumes[v]->dims[2]);
+        if (!slab)
+            return false;
+        slab->buffer = slab->class_index;
+        if (layout->range_count > INT32_MAX)
+            return pel_fail(PEL_ERROR_DEVICE, "the volumes have more than %d bricks", INT32_MAX);
+    }
+    return true;
+}
+
+// Whether nothing is read where nothing can be seen: a surface between two samples, for one, is
+// found from values on both sides.
+static bool pool_serves(const struct pel_scene *scene) {
+    for (int k = 0; k < scene->instance_count; k++) {
+        enum pel_model model = pel_model_of(scene, &scene->instances[k]);
+        if (!scene->instances[k].hidden && model != PEL_MODEL_ABSORPTION &&
+            model != PEL_MODEL_THESIS)
+            return false;
+    }
+    return true;
+}
+
+static bool plan_reader(struct pel_layout *layout, const struct pel_scene *scene,
+                        const struct pel_layout_limits *limits, enum pel_reader reader,
+                        enum pel_reader preferred) {
+>>>>>>> main
     enum pel_reader first = reader == PEL_READER_AUTO ? preferred : reader;
     memset(layout, 0, sizeof *layout);
+    layout->cell_side = CELL_VOXELS;
     if (first == PEL_READER_IMAGE ? plan_images(layout, scene, limits)
                                   : plan_buffers(layout, scene, limits))
         return true;
@@ -253,5 +310,24 @@ bool pel_layout_plan(struct pel_layout *layout, const struct pel_scene *scene,
         return false;
     pel_warn("%s; reading from buffers instead", pel_error_message());
     memset(layout, 0, sizeof *layout);
+    layout->cell_side = CELL_VOXELS;
     return plan_buffers(layout, scene, limits);
+}
+
+bool pel_layout_plan(struct pel_layout *layout, const struct pel_scene *scene,
+                     const struct pel_layout_limits *limits, enum pel_reader reader,
+                     enum pel_reader preferred) {
+    enum pel_pool_use use = scene->render.bricks.pool;
+    bool serves = reader != PEL_READER_IMAGE && pool_serves(scene);
+    if (use == PEL_POOL_ON && !serves)
+        return pel_fail(PEL_ERROR_UNSUPPORTED,
+                        reader == PEL_READER_IMAGE
+                            ? "a pool of bricks cannot be read as images; use --reader buffer"
+                            : "a pool of bricks serves the optical models absorption and thesis "
+                              "only");
+    if (use == PEL_POOL_ON)
+        return plan_pool(layout, scene);
+    return plan_reader(layout, scene, limits, reader, preferred) ||
+           (use == PEL_POOL_AUTO && serves && pel_error_code() == PEL_ERROR_DEVICE &&
+            plan_pool(layout, scene));
 }

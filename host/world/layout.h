@@ -38,7 +38,10 @@ struct pel_layout {
     int slab_count;
     struct pel_slab slabs[WORLD_PART_MAX];
     uint64_t buffer_bytes[VOXEL_BUFFERS];
-    size_t range_count;                 // cells of all slabs
+    size_t range_count; // cells of all slabs
+    int cell_side;      // voxels along a side of a cell
+    bool pool;          // bricks come and go behind a table of pages; cells are bricks
+    int margin;         // with it: how near a brick's values count for it, in voxels
     size_t atlas[VOXEL_CLASS_COUNT][3]; // texels; 0 where a class does not occur
 };
 

@@ -17,7 +17,7 @@ static const char *const render_keys[] = {
     "comment", "size",           "mixing", "step",          "step_mm", "phase", "termination",
     "origin",  "skip",           "bricks", "supersampling", "jitter",  "debug", "model",
     "order",   "emission_scale", NULL};
-static const char *const brick_keys[] = {"comment", "size", "cluster", NULL};
+static const char *const brick_keys[] = {"comment", "size", "cluster", "pool", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
@@ -25,6 +25,7 @@ static const char *const output_keys[] = {"comment", "file", "depth", "alpha", N
 // In the order of their enums.
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
 static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", "bvh", NULL};
+static const char *const pool_names[] = {"auto", "off", "on", NULL};
 static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
                                           "work-group", "work-item", "time",  NULL};
 static const char *const pattern_names[] = {"regular",        "jittered",   "n-rooks",
@@ -121,10 +122,13 @@ static bool read_bricks(struct pel_brick_settings *bricks, const struct pel_scen
     if (!pel_node_member(&node, render, "bricks"))
         return true;
     bool cluster = !bricks->apart;
+    int pool = (int)bricks->pool;
     if (!pel_node_check_object(&node, brick_keys) ||
         !pel_node_get_integer(&node, "size", 8, 128, &bricks->size) ||
-        !pel_node_get_bool(&node, "cluster", &cluster))
+        !pel_node_get_bool(&node, "cluster", &cluster) ||
+        !pel_node_get_name(&node, "pool", pool_names, &pool))
         return false;
+    bricks->pool = (enum pel_pool_use)pool;
     bricks->apart = !cluster;
     if (pel_bricks_check(bricks))
         return true;
@@ -137,6 +141,7 @@ static void write_bricks(struct pel_scene_writer *writer, json_t *render) {
     json_t *object = pel_write_object(writer, render, "bricks");
     pel_write_number(writer, object, "size", bricks->size, 0);
     pel_write_bool(writer, object, "cluster", !bricks->apart, true);
+    pel_write_name(writer, object, "pool", pool_names, (int)bricks->pool, PEL_POOL_AUTO);
     if (json_object_size(object) == 0)
         json_object_del(render, "bricks");
 }

@@ -170,6 +170,8 @@ bool pel_scene_read_source(struct pel_volume_plan *plan, const struct pel_scene_
     for (int i = 0; only_files[i]; i++)
         if (pel_node_member(&member, node, only_files[i]))
             return pel_node_fail(&member, "applies to files only");
+    if (has_hypertexture && pel_node_member(&member, node, "spacing"))
+        return pel_node_fail(&member, "applies to voxels, of which a hypertexture has 'size'");
     return has_generate ? read_generate(plan, &generate) : read_hypertexture(plan, &hypertexture);
 }
 
@@ -201,9 +203,41 @@ static void write_generate(struct pel_scene_writer *writer, json_t *volume,
     pel_write_bool(writer, generate, "second", options->second, false);
 }
 
+// The name of an instance that shows the volume; a hidden one does as well.
+static const char *name_of(const struct pel_scene *scene, const struct pel_volume *volume) {
+    for (int i = 0; i < scene->instance_count; i++)
+        if (scene->volumes[scene->instances[i].volume] == volume)
+            return scene->instances[i].name;
+    return "";
+}
+
+static void write_hypertexture(struct pel_scene_writer *writer, json_t *volume,
+                               const struct pel_volume_source *source) {
+    json_t *object = pel_write_object(writer, volume, "hypertexture");
+    const char *recipe = source->recipe;
+    int type = 0;
+    while (type < 2 && generate_types[type] != source->hypertexture.type)
+        type++;
+    if (*recipe == '{')
+        pel_write_value(writer, object, "recipe", json_loads(recipe, 0, NULL));
+    else if (strchr(recipe, '/') || pel_path_has_extension(recipe, ".json"))
+        pel_write_path(writer, object, "recipe", recipe);
+    else
+        pel_write_text(writer, object, "recipe", recipe);
+    pel_write_number(writer, object, "size", source->hypertexture.size, HYPERTEXTURE_SIZE);
+    pel_write_name(writer, object, "type", generate_type_names, type, 0);
+    pel_write_number(writer, object, "seed", source->hypertexture.seed, 0);
+    pel_write_number(writer, object, "time", source->hypertexture.time, 0);
+    pel_write_bool(writer, object, "live", source->hypertexture.live, false);
+    if (source->object)
+        pel_write_text(writer, object, "object", name_of(writer->scene, source->object));
+}
+
 void pel_scene_write_source(struct pel_scene_writer *writer, json_t *volume,
                             const struct pel_volume_source *source) {
-    if (!source->file) {
+    if (source->recipe) {
+        write_hypertexture(writer, volume, source);
+    } else if (!source->file) {
         write_generate(writer, volume, source);
     } else {
         const struct pel_load_options *load = &source->load;

@@ -105,7 +105,7 @@ static void write_volume(struct pel_scene_writer *writer, json_t *volume,
                          const struct pel_instance *instance) {
     const struct pel_scene *scene = writer->scene;
     const struct pel_volume_source *source = &scene->sources[instance->volume];
-    if (!source->file && !source->kind && !writer->failed) {
+    if (!source->file && !source->kind && !source->recipe && !writer->failed) {
         writer->failed = true;
         pel_fail(PEL_ERROR_ARGUMENT, "volume '%s' came from no file that a scene could name",
                  instance->name);

@@ -144,17 +144,17 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         part->voxels = 1 << slab->class_index;
         world->voxels |= part->voxels;
 
-        size_t stored[3];
+        size_t stored[3], side = (size_t)layout->cell_side;
         pel_slab_dims(slab, volume, stored);
         part->memory_high =
             (float4){(float)stored[0] - 1.5F, (float)stored[1] - 1.5F, (float)stored[2] - 1.5F, 0};
         part->brick_row = (i32)pel_brick_count(stored[0]);
         part->brick_slice = part->brick_row * (i32)pel_brick_count(stored[1]);
-        part->cell_row = (i32)pel_grid_cells(stored[0]);
-        part->cell_slice = part->cell_row * (i32)pel_grid_cells(stored[1]);
+        part->cell_row = (i32)pel_grid_cells(stored[0], side);
+        part->cell_slice = part->cell_row * (i32)pel_grid_cells(stored[1], side);
         part->cells = (u32)world->cell_count;
         part->ranges = slab->ranges;
-        world->cell_count += (size_t)part->cell_slice * pel_grid_cells(stored[2]);
+        world->cell_count += (size_t)part->cell_slice * pel_grid_cells(stored[2], side);
     }
     return true;
 }
@@ -325,6 +325,8 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout) {
     memset(world, 0, sizeof *world);
+    world->cell_side = layout->cell_side;
+    world->pool = layout->pool;
     struct pel_bounds bounds = {{0}, {0}};
     int visible = 0;
     for (int k = 0; k < scene->instance_count; k++)

@@ -13,6 +13,8 @@ struct pel_world {
     u32 *visible; // owned; for each table, how many entries before each one can be seen
     size_t visible_words;
     size_t cell_count; // of all parts (shared/grid.h)
+    int cell_side;     // voxels along a side of a cell
+    bool pool;         // bricks come from a pool
     // What the kernel must be able to do.
     int voxels;         // classes of voxels, VOXELS_*
     int filters;        // FILTERS_*

@@ -1,11 +1,19 @@
 // grid.h - the grid of cells over a part's memory, the same for host and kernels.
 //
+// A cell has CELL_VOXELS voxels along a side, or those of a brick where bricks come from a pool.
+//
 // Cell (x,y,z) is for sample positions CELL_VOXELS * x <= p < CELL_VOXELS * (x + 1) in memory coordinates (and so
 // on), whose interpolation needs the voxels CELL_VOXELS * x .. CELL_VOXELS * (x + 1), both included.
 #ifndef SHARED_GRID_H
 #define SHARED_GRID_H
 
+#include "shared/brick.h"
+
+#if defined(POOL) && POOL
+#define CELL_BITS BRICK_BITS
+#else
 #define CELL_BITS 2
+#endif
 #define CELL_VOXELS (1 << CELL_BITS)
 
 // No distance is larger than this, in cells.

@@ -8,6 +8,9 @@
 
 #include "ray.cl"
 
+#ifndef POOL
+#define POOL 0
+#endif
 #ifndef SKIP
 #define SKIP SKIP_NONE // how empty space is skipped
 #endif

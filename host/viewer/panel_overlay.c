@@ -1,0 +1,119 @@
+// panel_overlay.c - read-outs over the picture: which way is which, how long is what.
+#include <stdio.h>
+
+#include "viewer/gauge.h"
+#include "viewer/panel.h"
+
+static const uint32_t white = 0xFFFFFFFF, shade = 0xA0000000;
+
+// The faces of the patient that are seen, with their letters.
+static void draw_cube(const struct pel_state *state, const struct pel_view *view,
+                      const struct pel_rectangle *where) {
+    double edge_px = 44 * state->windows[0].scale;
+    const double centre[2] = {where->x + where->width - 1.1 * edge_px,
+                              where->y + where->height - 1.1 * edge_px};
+    struct pel_cube_face faces[3];
+    int count = pel_orientation_cube(faces, view, centre, edge_px);
+    for (int i = 0; i < count; i++) {
+        const struct pel_cube_face *face = &faces[i];
+        for (int corner = 0; corner < 4; corner++)
+            pel_widget_line(face->corners[corner], face->corners[(corner + 1) % 4], 0xFFD0D0D0,
+                            1.5);
+        // A face seen from its edge has no room for its letter.
+        if (face->brightness < 0.3)
+            continue;
+        const char letter[2] = {face->letter, 0};
+        const double at[2] = {face->centre[0] - pel_widget_text_width(letter) / 2,
+                              face->centre[1] - pel_widget_letter_height() / 2};
+        pel_widget_write(at, white, letter);
+    }
+}
+
+// The bar is true at the distance of the camera's target.
+static void draw_scale(const struct pel_state *state, const struct pel_view *view,
+                       const struct pel_rectangle *where) {
+    double scale = state->windows[0].scale;
+    struct pel_scale_bar bar;
+    if (!pel_scale_bar_make(&bar, view, 140 * scale))
+        return;
+    double right = where->x + where->width - 110 * scale;
+    double left = right - bar.length_px, y = where->y + where->height - 20 * scale;
+    pel_widget_line((double[]){left, y + 1}, (double[]){right, y + 1}, shade, 5 * scale);
+    pel_widget_line((double[]){left, y}, (double[]){right, y}, white, 2 * scale);
+    for (int i = 0; i < 2; i++) {
+        double x = i ? right : left;
+        pel_widget_line((double[]){x, y - 5 * scale}, (double[]){x, y + 5 * scale}, white,
+                        2 * scale);
+    }
+    const double at[2] = {(left + right - pel_widget_text_width(bar.text)) / 2,
+                          y - 6 * scale - pel_widget_letter_height()};
+    pel_widget_write(at, white, bar.text);
+}
+
+// The gizmo: arrows red, green and blue along x, y and z, rings about them.
+static void draw_handles(const struct pel_state *state, const struct pel_rectangle *where) {
+    static const uint32_t colours[] = {0xFF5050FF, 0xFF50E050, 0xFFFF8050, 0xFFE0E0E0};
+    struct pel_gizmo gizmo;
+    if (!pel_state_gizmo(state, &gizmo))
+        return;
+    const double at[2] = {state->pointer_px[0] - where->x, state->pointer_px[1] - where->y};
+    enum pel_handle hot = state->drag == PEL_DRAG_HANDLE
+                              ? state->handle_drag.handle
+                              : pel_gizmo_hit(&gizmo, at, 8 * state->windows[0].scale);
+    for (int handle = PEL_HANDLE_NONE + 1; handle < PEL_HANDLE_COUNT; handle++) {
+        double points[PEL_HANDLE_POINTS][2];
+        int count = pel_gizmo_outline(&gizmo, (enum pel_handle)handle, points);
+        uint32_t colour = handle == (int)hot               ? 0xFF40E0FF
+                          : handle >= PEL_HANDLE_MOVE_VIEW ? colours[3]
+                                                           : colours[(handle - 1) % 3];
+        for (int i = 0; i < count; i++)
+            points[i][0] += where->x, points[i][1] += where->y;
+        for (int i = 1; i < count; i++)
+            pel_widget_line(points[i - 1], points[i], colour, handle == (int)hot ? 3 : 2);
+    }
+}
+
+// Where the pointer's ray first sees something, and what every volume is there.
+static void draw_values(struct pel_state *state, const struct pel_view *view,
+                        const struct pel_rectangle *where) {
+    const double at[2] = {state->pointer_px[0] - where->x, state->pointer_px[1] - where->y};
+    if (state->drag != PEL_DRAG_NONE || at[0] < 0 || at[1] < 0 || at[0] >= where->width ||
+        at[1] >= where->height)
+        return;
+    if (!state->picked)
+        pel_pick(&state->pick, state->scene, view, at);
+    state->picked = true;
+    const struct pel_pick *pick = &state->pick;
+    if (!pick->hit)
+        return;
+    double line_px = pel_widget_letter_height() + 3, y = where->y + 10;
+    double x = where->x + 12;
+    char text[160];
+    snprintf(text, sizeof text, "%.1f %.1f %.1f mm (R A S)", pick->position[0], pick->position[1],
+             pick->position[2]);
+    for (int i = -1; i < pick->count; i++, y += line_px) {
+        const struct pel_instance *instance = &state->scene->instances[i < 0 ? 0 : i];
+        if (i >= 0 && !pick->values[i].inside)
+            continue;
+        if (i >= 0)
+            snprintf(text, sizeof text, "%s %.5g %s", instance->name, pick->values[i].value,
+                     state->scene->volumes[instance->volume]->unit);
+        const double low[2] = {x - 4, y - 1};
+        const double high[2] = {x + pel_widget_text_width(text) + 4, y + line_px - 2};
+        pel_widget_box(low, high, shade, true);
+        pel_widget_write((double[]){x, y}, white, text);
+    }
+}
+
+void pel_panel_overlay(struct pel_state *state) {
+    const struct pel_rectangle *where = &state->views[0].place;
+    struct pel_view view;
+    if (!pel_view_make(&view, &state->scene->camera, where->width, where->height))
+        return;
+    pel_widget_draw_over(true);
+    draw_cube(state, &view, where);
+    draw_scale(state, &view, where);
+    draw_handles(state, where);
+    draw_values(state, &view, where);
+    pel_widget_draw_over(false);
+}

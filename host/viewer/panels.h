@@ -1,0 +1,25 @@
+// panels.h - what is drawn over and beside the pictures: panels on the left, read-outs and handles
+// over the pictures, the list of keys. panel_main.c puts them together; panels_none.c is there in
+// its place where there is no Dear ImGui, and the viewer then has keys only.
+#ifndef PEL_VIEWER_PANELS_H
+#define PEL_VIEWER_PANELS_H
+
+#include "viewer/state.h"
+
+// What the panels take of the window's width, in screen coordinates.
+enum { PEL_PANELS_COLUMN = 330 };
+
+// For the first window, whose OpenGL context is current.
+bool pel_panels_start(struct pel_state *state);
+void pel_panels_stop(void);
+
+// What the panels on the left take of the window's width, in pixels.
+int pel_panels_width(const struct pel_state *state);
+
+// An event of the first window; true when the panels keep it.
+bool pel_panels_take_event(const struct pel_event *event);
+
+// Draws everything into the first window. `seconds` went by since the last time.
+void pel_panels_draw(struct pel_state *state, double seconds);
+
+#endif

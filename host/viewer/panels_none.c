@@ -1,0 +1,24 @@
+// panels_none.c - no panels: the program was built without Dear ImGui.
+#include "viewer/panels.h"
+
+bool pel_panels_start(struct pel_state *state) {
+    (void)state;
+    return true;
+}
+
+void pel_panels_stop(void) {
+}
+
+int pel_panels_width(const struct pel_state *state) {
+    (void)state;
+    return 0;
+}
+
+bool pel_panels_take_event(const struct pel_event *event) {
+    (void)event;
+    return false;
+}
+
+void pel_panels_draw(struct pel_state *state, double seconds) {
+    (void)state, (void)seconds;
+}
