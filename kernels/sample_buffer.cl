@@ -14,9 +14,8 @@
 #endif
 #define MEMORY_PARAMETERS                                                                          \
     __global const uchar *buffer0, __global const uchar *buffer1, __global const uchar *buffer2,   \
-<<<<<<< HEAD
-        __global const uchar *buffer3 LIVE_PARAMETERS
-#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 LIVE_ARGUMENTS
+        __global const uchar *buffer3 PAGES_PARAMETER LIVE_PARAMETERS
+#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 PAGES_ARGUMENT LIVE_ARGUMENTS
 
 // Recipes, and the values of the volumes that they grow on.
 #if LIVE
@@ -26,10 +25,6 @@
 #define LIVE_PARAMETERS
 #define LIVE_ARGUMENTS
 #endif
-=======
-        __global const uchar *buffer3 PAGES_PARAMETER
-#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 PAGES_ARGUMENT
->>>>>>> main
 
 // Two neighbouring voxels of one byte, wherever they begin.
 struct __attribute__((packed)) byte_pair {

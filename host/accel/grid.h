@@ -16,16 +16,11 @@ struct pel_grid {
     float (*range)[2]; // owned; least and greatest value of each cell; least > greatest: all absent
 };
 
-<<<<<<< HEAD
 // Ends of a cell's range that stand for any value.
 #define PEL_GRID_ENDLESS 1e30F
 
-// The number of cells over `voxels` stored voxels along one axis.
-size_t pel_grid_cells(size_t voxels);
-=======
 // The number of cells of `side` voxels over `voxels` stored voxels along one axis.
 size_t pel_grid_cells(size_t voxels, size_t side);
->>>>>>> main
 
 // Prepares for a slab of dims[0] x dims[1] x dims[2] stored voxels, border included, and cells of
 // at least CELL_VOXELS voxels a side. False: MEMORY.

@@ -144,7 +144,7 @@ static bool send_endless_ranges(struct pel_residency *residency, const struct pe
     struct pel_grid grid;
     size_t dims[3];
     pel_slab_dims(slab, volume, dims);
-    if (!pel_grid_init(&grid, dims))
+    if (!pel_grid_init(&grid, dims, CELL_VOXELS, 0))
         return false;
     size_t cells = grid.cells[0] * grid.cells[1] * grid.cells[2];
     for (size_t i = 0; i < cells; i++) {
@@ -209,32 +209,23 @@ static bool send_voxels(struct pel_residency *residency, const struct pel_scene 
     return good;
 }
 
-<<<<<<< HEAD
 bool pel_residency_update(struct pel_residency *residency, const struct pel_scene *scene,
                           const struct pel_layout *layout, const struct pel_world *world) {
     residency->has_live = world->live_count > 0;
     return send_voxels(residency, scene, layout) &&
            pel_live_update(&residency->live, residency->device, scene, world);
-=======
+}
+
 bool pel_residency_fill(struct pel_residency *residency, const struct pel_scene *scene,
                         const struct pel_layout_limits *limits, const uint8_t *active) {
     return pel_pool_fill(&residency->pool, residency->device, scene, &residency->layout, limits,
                          active);
->>>>>>> main
 }
 
 bool pel_residency_bind(const struct pel_residency *residency, struct pel_kernel *kernel, int index,
                         int voxels) {
     bool good = true;
     if (residency->layout.reader == PEL_READER_BUFFER) {
-<<<<<<< HEAD
-        for (int b = 0; good && b < VOXEL_BUFFERS; b++)
-            good = pel_kernel_set_buffer(kernel, index++, residency->buffers[b]);
-        if (good && residency->has_live)
-            good = pel_kernel_set_buffer(kernel, index, residency->live.recipes.buffer) &&
-                   pel_kernel_set_buffer(kernel, index + 1, residency->live.objects);
-        return good;
-=======
         const struct pel_pool *pool = &residency->pool;
         for (int b = 0; good && b < VOXEL_BUFFERS; b++) {
             // Every buffer argument of the kernel needs a buffer, if only of something else.
@@ -243,9 +234,12 @@ bool pel_residency_bind(const struct pel_residency *residency, struct pel_kernel
             good = pel_kernel_set_buffer(kernel, index++,
                                          residency->layout.pool ? shelf : residency->buffers[b]);
         }
-        return good &&
-               (!residency->layout.pool || pel_kernel_set_buffer(kernel, index, pool->pages));
->>>>>>> main
+        if (good && residency->layout.pool)
+            good = pel_kernel_set_buffer(kernel, index++, pool->pages);
+        if (good && residency->has_live)
+            good = pel_kernel_set_buffer(kernel, index, residency->live.recipes.buffer) &&
+                   pel_kernel_set_buffer(kernel, index + 1, residency->live.objects);
+        return good;
     }
     uint32_t atlas_count = 0;
     for (int class = 0; good && class < VOXEL_CLASS_COUNT; class ++) {

@@ -3,11 +3,8 @@
 #define PEL_RENDER_RESIDENCY_H
 
 #include "device/device.h"
-<<<<<<< HEAD
 #include "render/live.h"
-=======
 #include "render/pool.h"
->>>>>>> main
 #include "world/layout.h"
 
 struct pel_residency {

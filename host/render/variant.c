@@ -54,18 +54,10 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
              "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d "
-<<<<<<< HEAD
-             "-DGROUP_ROWS=%d -DLIVE=%d",
-=======
-             "-DGROUP_ROWS=%d -DPOOL=%d",
->>>>>>> main
+             "-DGROUP_ROWS=%d -DPOOL=%d -DLIVE=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
              variant->jitter, variant->debug, variant->probe, variant->models, variant->group_rows,
-<<<<<<< HEAD
-             variant->live);
-=======
-             variant->pool);
->>>>>>> main
+             variant->pool, variant->live);
 }

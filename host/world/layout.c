@@ -6,11 +6,7 @@
 
 #include "accel/grid.h"
 #include "base/error.h"
-<<<<<<< HEAD
-#include "volume/hypertexture.h"
-=======
 #include "shared/grid.h"
->>>>>>> main
 #include "world/brick.h"
 #include "world/model.h"
 
@@ -242,15 +238,14 @@ static bool plan_images(struct pel_layout *layout, const struct pel_scene *scene
     return true;
 }
 
-<<<<<<< HEAD
-bool pel_layout_plan(struct pel_layout *layout, const struct pel_scene *scene,
-                     const struct pel_layout_limits *limits, enum pel_reader reader,
-                     enum pel_reader preferred) {
-    // Images are for voxels; a kernel that works out recipes has none.
+// Whether something is worked out at every sample.
+static bool has_live(const struct pel_scene *scene) {
     for (int v = 0; v < scene->volume_count; v++)
         if (scene->volumes[v]->hypertexture)
-            reader = PEL_READER_BUFFER;
-=======
+            return true;
+    return false;
+}
+
 // How far from a sample that can be seen voxels are read: gradients and cubic filters look around.
 static int pool_margin(const struct pel_scene *scene) {
     int margin = 0;
@@ -287,6 +282,8 @@ static bool plan_pool(struct pel_layout *layout, const struct pel_scene *scene) 
 // Whether nothing is read where nothing can be seen: a surface between two samples, for one, is
 // found from values on both sides.
 static bool pool_serves(const struct pel_scene *scene) {
+    if (has_live(scene))
+        return false;
     for (int k = 0; k < scene->instance_count; k++) {
         enum pel_model model = pel_model_of(scene, &scene->instances[k]);
         if (!scene->instances[k].hidden && model != PEL_MODEL_ABSORPTION &&
@@ -299,7 +296,9 @@ static bool pool_serves(const struct pel_scene *scene) {
 static bool plan_reader(struct pel_layout *layout, const struct pel_scene *scene,
                         const struct pel_layout_limits *limits, enum pel_reader reader,
                         enum pel_reader preferred) {
->>>>>>> main
+    // Images are for voxels; a kernel that works out recipes has none.
+    if (has_live(scene))
+        reader = PEL_READER_BUFFER;
     enum pel_reader first = reader == PEL_READER_AUTO ? preferred : reader;
     memset(layout, 0, sizeof *layout);
     layout->cell_side = CELL_VOXELS;
