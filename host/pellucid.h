@@ -287,6 +287,12 @@ struct pel_bounds {
 PEL_API bool pel_camera_fit(struct pel_camera *camera, const char *view,
                             const struct pel_bounds *bounds, double aspect);
 
+// The camera whose picture is a part of another's: `place` is its left and top edge, width and
+// height, in shares of the whole, whose width / height is `aspect`. Rays through the same place of
+// both are the same, up to rounding.
+PEL_API struct pel_camera pel_camera_part(const struct pel_camera *whole, double aspect,
+                                          const double place[4]);
+
 // ---- Stereo ------------------------------------------------------------------------------------
 
 // How the pictures of two eyes become one. docs/stereo.md has the formulae and their sources.
@@ -442,6 +448,22 @@ struct pel_material {
 // VTK's and ours: ambient 0.1, diffuse 0.7, specular 0.2, shininess 10, two-sided.
 PEL_API struct pel_material pel_material_default(enum pel_shading shading);
 
+#define PEL_CLIP_MAX 8
+
+enum pel_clip_kind { PEL_CLIP_PLANE, PEL_CLIP_BOX };
+
+// What is kept of a volume, or of all: one side of a plane, or the inside or outside of a box
+// (docs/mixing.md, "Clipping"). Of several all must hold. Gradients are those of the whole volume.
+struct pel_clip {
+    enum pel_clip_kind kind;
+    bool outside;     // keep what is behind the plane, or cut the box's inside away
+    bool in_world;    // of a volume's: stays where it is when `transform` moves the volume
+    double point[3];  // of the plane, or the middle of the box; millimetres
+    double normal[3]; // of the plane, towards what is kept; any length but zero
+    double size[3];   // of the box
+    double xyzw[4];   // rotation of the box about its middle; all zero for none
+};
+
 // One volume as it stands in a scene. Several instances may show one volume.
 struct pel_instance {
     char name[64];
@@ -456,8 +478,11 @@ struct pel_instance {
     double step;                   // of its samples, in its own finest voxels; 0 = the scene's
     double step_mm;                // the same in millimetres, instead of `step`; 0 = as `step` says
     enum pel_model model;          //
+    bool preintegration;           // of absorption: what lies between two samples counts
     int surface_count;             // of model iso; 0: one of the middle value, opaque
     struct pel_surface surfaces[PEL_SURFACE_MAX];
+    int clip_count;
+    struct pel_clip clips[PEL_CLIP_MAX];
     double priority; // of PEL_MIX_PRIORITY: the greater one wins, of equals the first in the list
 };
 
@@ -547,6 +572,7 @@ struct pel_render_settings {
     double step;            // in voxels of the finest visible volume; > 0
     double step_mm;         // the same in millimetres, instead of `step`; 0 = as `step` says
     enum pel_model model;   // of volumes that have none of their own
+    bool preintegration;    // of all volumes: see pel_instance
     enum pel_order order;   // back to front no ray ends early
     double emission_scale; // of model emission, per mm; 0 = 1 over the longest way through a volume
     double phase;          // of the first sample, in steps; 0..1
@@ -557,6 +583,21 @@ struct pel_render_settings {
     struct pel_supersampling supersampling;
     bool jitter;          // every ray has a random phase of its own in place of `phase`
     enum pel_debug debug; //
+};
+
+#define PEL_WALL_MAX 32
+
+// One window or monitor of a display wall.
+struct pel_wall_region {
+    double place[4]; // left and top edge, width and height, in shares of the whole picture
+    int monitor;     // which one it fills, counted from 0; -1: none, it is a window
+    char device[64]; // what renders it, as pel_renderer_options has it; "" = what renders the rest
+};
+
+// One picture over several windows or monitors; what lies between the regions is hidden by bezels.
+struct pel_wall {
+    int region_count; // 0: no wall
+    struct pel_wall_region regions[PEL_WALL_MAX];
 };
 
 struct pel_output_settings {
@@ -605,8 +646,11 @@ struct pel_scene {
     struct pel_instance instances[PEL_VOLUME_MAX];
     int light_count; // 0: one white headlight
     struct pel_light lights[PEL_LIGHT_MAX];
+    int clip_count; // of all volumes, in the world
+    struct pel_clip clips[PEL_CLIP_MAX];
     struct pel_render_settings render;
     struct pel_stereo stereo;
+    struct pel_wall wall; // of the viewer; pictures are rendered whole
     struct pel_output_settings output;
     struct pel_timeline timeline;
     char *text; // owned; the scene as JSON after all overrides, as it goes into the picture
@@ -665,6 +709,12 @@ PEL_API bool pel_scene_move(struct pel_scene *scene, int instance, int to);
 // transforms stay. Fails as pel_volume_load does, and ARGUMENT for a volume without a source; the
 // scene is then as before.
 PEL_API bool pel_scene_reload(struct pel_scene *scene, int volume);
+
+// Chooses steps, termination and supersampling for a quality of 0 (a draft) to 1 (the best there
+// is; 0.5 is near the defaults). Volumes get steps of their own, by their spacing and by the
+// greatest opacity of their transfer functions. docs/picture.md, "Quality", has the rule and the
+// errors.
+PEL_API void pel_scene_set_quality(struct pel_scene *scene, double quality);
 
 // The scene as JSON: what pel_scene_save writes to `path`, whose folder the files in it are
 // relative to. NULL gives it compact, with absolute paths, as for the text in a picture. Memory to
@@ -759,11 +809,13 @@ struct pel_render_statistics {
     char device[128], driver[128];
     enum pel_reader reader;
     int lanes, work_group;
-    uint64_t samples;        // taken inside volumes, all rays together
-    uint64_t rays;           //
-    double refined;          // share of the pixels that got all their rays: 1 unless adaptive
-    uint64_t device_bytes;   // allocated on the device at the end of the frame
-    uint64_t uploaded_bytes; // sent to the device for this frame
+    uint64_t samples;            // taken inside volumes, all rays together
+    uint64_t samples_skipped;    // others, where skipping has found nothing to see
+    uint64_t samples_terminated; // and those behind the end of a ray that ended early
+    uint64_t rays;               //
+    double refined;              // share of the pixels that got all their rays: 1 unless adaptive
+    uint64_t device_bytes;       // allocated on the device at the end of the frame
+    uint64_t uploaded_bytes;     // sent to the device for this frame
     struct pel_kernel_info kernel;
     enum pel_skip skip;
     uint64_t skip_bytes; // of device_bytes, those for skipping

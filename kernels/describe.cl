@@ -78,6 +78,10 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, rank);
     *out++ = OFFSET(struct part, medium);
     *out++ = OFFSET(struct part, recipe);
+    *out++ = OFFSET(struct part, cuts);
+    *out++ = OFFSET(struct part, plane_count);
+    *out++ = OFFSET(struct part, box_count);
+    *out++ = OFFSET(struct part, hole_count);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
     *out++ = OFFSET(struct world, bounds_low);
@@ -101,5 +105,6 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, medium_count);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
+    *out++ = OFFSET(struct world, cuts);
     describe_recipe(out);
 }

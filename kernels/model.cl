@@ -7,6 +7,7 @@
 
 #include "model/gathered.cl"
 #include "model/projection.cl"
+#include "model/segment.cl"
 #include "model/surface.cl"
 
 #if MODELS
@@ -34,7 +35,7 @@ INLINE mask gather_thesis(struct gathered *gathered, const struct spot *spot, re
 INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table,
                    __global const uchar *cells, MEMORY_PARAMETERS, struct gathered *gathered,
                    const struct crossing *crossing, const struct light *light,
-                   const struct sample *sample, struct spot spot) {
+                   struct mixture *mixture, const struct sample *sample, struct spot spot) {
 #if VOXELS & VOXELS_F32
     spot.present &= MASK(sample->raw == sample->raw);
 #endif
@@ -45,6 +46,28 @@ INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table
         gathered->raw[spot.c] = CHOOSE(gathered->raw[spot.c], sample->raw, spot.present);
         gathered->at[spot.c] = CHOOSE(gathered->at[spot.c], spot.i, spot.present);
         leap_segments(cells, &spot);
+        return seen;
+    }
+#endif
+#if MODELS & MODELS_PREINTEGRATED
+    if (spot.part->model == MODEL_PREINTEGRATED) {
+        real strength, r, g, b;
+        seen = gather_segment(table, MEMORY_ARGUMENTS, gathered, &spot, sample->raw, &strength, &r,
+                              &g, &b);
+        gathered->raw[spot.c] = CHOOSE(gathered->raw[spot.c], sample->raw, spot.present);
+        gathered->at[spot.c] = CHOOSE(gathered->at[spot.c], spot.i, spot.present);
+        if (!any_lane(seen)) {
+            leap_segments(cells, &spot);
+            return seen;
+        }
+#if SHADING
+        if (spot.part->shading != SHADING_NONE) {
+            const real t = TO_REAL(cursor_clamp(spot.cursor, spot.i));
+            shade_between(world, MEMORY_ARGUMENTS, crossing, &spot, t,
+                          CHOOSE((real)(0.0f), sample->raw, spot.present), &r, &g, &b);
+        }
+#endif
+        mix_add(mixture, &gathered->media, spot.part, r, g, b, strength);
         return seen;
     }
 #endif

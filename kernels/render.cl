@@ -31,6 +31,19 @@
 #define DEBUG 0 // 1: a number of each ray in place of its light
 #endif
 
+// The samples of each ray that lie behind the one at which it has ended.
+INLINE integer samples_behind(const struct crossing *crossing, integer i) {
+    integer count = (integer)(0);
+    for (int c = 0; c < COUNTED(crossing->count); c++) {
+        const struct cursor *cursor = &crossing->cursors[c];
+#if MIXING == MIXING_ORDERED
+        i = cursor->next;
+#endif
+        count += max(cursor->end - max(cursor->first, i), (integer)(0));
+    }
+    return count;
+}
+
 // Follows the rays and returns the light they gather. Adds the samples taken to *samples.
 INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE const uint *table,
                                 __global const uchar *cells, MEMORY_PARAMETERS,
@@ -81,11 +94,20 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             if (!any_lane(present))
                 continue;
 #endif
-            *samples -= present;
             const real t = TO_REAL(cursor_clamp(cursor, i));
 #if MIXING == MIXING_ORDERED
             cursor->next -= present;
 #endif
+#if CLIP
+            if (part->hole_count > 0) {
+                const real number = SAMPLE_NUMBER(crossing, c, t);
+                present &= clip_keeps(world, part, &crossing->ray,
+                                      crossing->t_first + number * world->step_mm);
+                if (!any_lane(present))
+                    continue;
+            }
+#endif
+            *samples -= present;
             const real x = cursor->ox + t * cursor->dx, y = cursor->oy + t * cursor->dy,
                        z = cursor->oz + t * cursor->dz;
             const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
@@ -93,7 +115,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             if (part->model != MODEL_ABSORPTION) {
                 const struct spot spot = {part, cursor, c, i, present};
                 seen |= gather(world, table, cells, MEMORY_ARGUMENTS, &gathered, crossing, &light,
-                               &sample, spot);
+                               &mixture, &sample, spot);
                 continue;
             }
 #endif
@@ -147,7 +169,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
             alive &= MASK(light.a <= world->termination);
         } else {
-            i = leap(&active, crossing, i);
+            i = CHOOSE(i, leap(&active, crossing, i), alive);
         }
         alive &= MASK(i < last);
 #endif
@@ -155,11 +177,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #if MODELS & MODELS_PROJECTION
     slip_in_projections(world, table, &gathered, crossing, &light);
 #endif
+    crossing->behind = samples_behind(crossing, i);
     return light;
 }
 
 // Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX pixels. Writes
-// premultiplied RGBA, rows from the top, and each packet's number of samples.
+// premultiplied RGBA, rows from the top, and each packet's numbers of samples (SAMPLE_COUNTS).
 __kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
                      __global float4 *picture, __global uint *sample_counts, const uint first_tile,
                      __global const uchar *cells RAY_PARAMETERS, MEMORY_PARAMETERS) {
@@ -173,9 +196,9 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;
     const int left = (int)(tile % world->tiles_x * TILE_PX + column * PACKET_W);
     const int top = (int)(tile / world->tiles_x * TILE_PX + row * PACKET_H);
-    __global uint *count = &sample_counts[tile * packets_per_tile + packet];
-    const uint earlier = earlier_samples(world, *count RAY_ARGUMENTS);
-    *count = earlier;
+    __global uint *counts = &sample_counts[(tile * packets_per_tile + packet) * SAMPLE_COUNTS];
+    for (int n = 0; n < SAMPLE_COUNTS; n++)
+        counts[n] = earlier_samples(world, counts[n] RAY_ARGUMENTS);
     if (left >= world->width || top >= world->height)
         return;
 
@@ -188,6 +211,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)};
 #if MODELS & MODELS_EMISSION
     light = follow_exactly(world, table, MEMORY_ARGUMENTS, &ray, &samples);
+    crossing.possible = samples;
 #else
     if (crossing.count > 0)
         light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
@@ -199,7 +223,9 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     light.g += clear * behind.y;
     light.b += clear * behind.z;
     light.a += clear * behind.w;
-    *count = earlier + (uint)sum_lanes(samples);
+    counts[SAMPLES_TAKEN] += (uint)sum_lanes(samples);
+    counts[SAMPLES_POSSIBLE] += (uint)sum_lanes(crossing.possible);
+    counts[SAMPLES_BEHIND] += (uint)sum_lanes(crossing.behind);
 #if DEBUG
     light.r = debug_number(world, &crossing, samples);
 #endif

@@ -6,6 +6,7 @@
 #define SPAN_CL
 
 #include "shared/probe.h"
+#include "clip.cl"
 #include "traverse/cursor.cl"
 
 #if SKIP != SKIP_NONE || POOL
@@ -50,10 +51,12 @@ struct crossing {
     struct cursor cursors[CAPACITY];
     int parts[CAPACITY];
     int count;
-#if SHADING
+    integer possible; // samples of each ray, were all of them taken
+    integer behind;   // of these, those behind the end of a ray that ended early
+#if SHADING || CLIP
     struct ray ray;
 #endif
-#if SHADING || PROBE
+#if SHADING || PROBE || CLIP
     real t_first; // where sample 0 lies
 #endif
 #if PROBE
@@ -127,10 +130,10 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
             t_near = CHOOSE(t_near, span.near, nearer);
         }
     }
-#if SHADING
+#if SHADING || CLIP
     crossing->ray = *ray;
 #endif
-#if SHADING || PROBE
+#if SHADING || PROBE || CLIP
     crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
 #endif
 #if MODELS & MODELS_BACKWARD
@@ -138,13 +141,17 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     crossing->mirror = sample_at(bounds.far, t_near, RAY_PHASE(world, ray), samples_per_mm) + 1;
 #endif
     crossing->count = 0;
+    crossing->possible = crossing->behind = (integer)(0);
 #if MIXING == MIXING_ORDERED
     real t_own = t_near;
 #endif
     for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
         __constant struct part *part = &world->parts[p];
         const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
-        const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+        struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+#if CLIP
+        clip_span(world, part, ray, &span);
+#endif
 #if MIXING == MIXING_ORDERED
         if (!world->origin_bounds && (p == 0 || part[-1].medium != part->medium))
             t_own = enter_instance(world, ray, p);
@@ -157,6 +164,8 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
 #if MODELS & MODELS_BACKWARD
         cursor_mirror(&cursor, crossing->mirror);
 #endif
+        crossing->possible += CHOOSE((integer)(0), cursor.end - cursor.first,
+                                     MASK(cursor.first < cursor.end));
         if (any_lane(MASK(cursor.first < cursor.end)))
             cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
         if (any_lane(MASK(cursor.next < cursor.end))) {

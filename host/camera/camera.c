@@ -137,3 +137,15 @@ bool pel_camera_fit(struct pel_camera *camera, const char *view, const struct pe
     }
     return true;
 }
+
+struct pel_camera pel_camera_part(const struct pel_camera *whole, double aspect,
+                                  const double place[4]) {
+    // u = u_whole - 2 shift, in half heights of the part: see docs/picture.md, "Rays".
+    struct pel_camera part = *whole;
+    double right = aspect * (2 * place[0] + place[2] - 1), up = 1 - 2 * place[1] - place[3];
+    part.shift[0] = (right / 2 + whole->shift[0]) / place[3];
+    part.shift[1] = (up / 2 + whole->shift[1]) / place[3];
+    part.height_mm = whole->height_mm * place[3];
+    part.fov_deg = 2 * atan(tan(whole->fov_deg * PEL_PI / 360) * place[3]) * 180 / PEL_PI;
+    return part;
+}

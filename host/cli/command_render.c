@@ -99,6 +99,10 @@ static int print_json(const struct run *run) {
     json_object_set_new(object, "rays", json_integer((json_int_t)statistics->rays));
     json_object_set_new(object, "refined", report_number(statistics->refined));
     json_object_set_new(object, "samples", json_integer((json_int_t)statistics->samples));
+    json_object_set_new(object, "samples_skipped",
+                        json_integer((json_int_t)statistics->samples_skipped));
+    json_object_set_new(object, "samples_terminated",
+                        json_integer((json_int_t)statistics->samples_terminated));
     json_object_set_new(object, "device_bytes", json_integer((json_int_t)statistics->device_bytes));
     json_object_set_new(object, "uploaded_bytes",
                         json_integer((json_int_t)statistics->uploaded_bytes));

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/clip_option.h"
 #include "cli/options.h"
 #include "cli/probe.h"
 
@@ -12,9 +13,12 @@ enum {
     KEY_SIZE = CLI_KEY_COMMAND,
     KEY_CAMERA,
     KEY_MIX,
+    KEY_CLIP,
     KEY_STEP,
     KEY_STEP_MM,
     KEY_MODEL,
+    KEY_QUALITY,
+    KEY_PREINTEGRATION,
     KEY_ORDER,
     KEY_FILTER,
     KEY_TERMINATION,
@@ -94,11 +98,19 @@ static const struct argp_option argp_options[] = {
      "such "
      "as model=phong,shininess=40",
      0},
+    {"clip", KEY_CLIP, "SPEC", 0,
+     "Keep one side of a plane, such as 'x<10' or 'z>-5.5' (world millimetres); the inside of a "
+     "box, box=X0:X1,Y0:Y1,Z0:Z1, or its outside, cut=...; may be repeated",
+     0},
     {0, 0, NULL, 0, "Rendering:", 4},
     {"mix", KEY_MIX, "KIND", 0,
      "How overlapping volumes share a sample: sum, over, ordered, max, priority, union, "
      "intersection or difference",
      0},
+    {"quality", KEY_QUALITY, "0..1|draft|normal|high|best", 0,
+     "Choose steps, termination and supersampling together", 0},
+    {"preintegration", KEY_PREINTEGRATION, NULL, 0,
+     "Let what lies between two samples count, so that thin shells show at long steps", 0},
     {"model", KEY_MODEL, "absorption|emission|mip|minip|average|iso|thesis", 0,
      "How light is gathered along a ray, in volumes that say nothing else; thesis is that of a "
      "2009 "
@@ -262,6 +274,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_CAMERA:
         good = add_camera(options, argument);
         break;
+    case KEY_CLIP:
+        good = clip_option_add(&options->overrides, &options->clip_count, argument);
+        break;
     case KEY_MIX:
         overrides_add_text(&options->overrides, "render.mixing", argument);
         break;
@@ -271,6 +286,16 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_MODEL:
         overrides_add_text(&options->overrides, "render.model", argument);
+        break;
+    case KEY_QUALITY:
+        overrides_add(&options->overrides, "render.step", "null");
+        overrides_add(&options->overrides, "render.step_mm", "null");
+        overrides_add(&options->overrides, "render.termination", "null");
+        overrides_add(&options->overrides, "render.supersampling", "null");
+        overrides_add(&options->overrides, "render.quality", argument);
+        break;
+    case KEY_PREINTEGRATION:
+        overrides_add(&options->overrides, "render.preintegration", "true");
         break;
     case KEY_ORDER:
         overrides_add_text(&options->overrides, "render.order", argument);

@@ -11,6 +11,7 @@ struct render_options {
     int input_count;
     const char *output; // NULL: not said
     struct overrides overrides;
+    int clip_count; // of --clip so far
     struct pel_renderer_options renderer;
     const char *frames; // which ones; NULL: not said
     int frame;          // -1: not said

@@ -153,7 +153,9 @@ static bool prepare(struct bake *bake, struct pel_device *device, struct recipe 
 
 struct pel_volume *pel_bake(struct pel_device *device, struct pel_kernel **kernel,
                             const char *recipe, const struct pel_bake_options *options) {
+    static const struct pel_bake_options defaults;
     struct recipe program;
+    options = options ? options : &defaults;
     if (!*kernel)
         *kernel = pel_kernel_build(device, "hypertexture.cl", "bake", "-cl-std=CL1.2");
     struct pel_volume *volume =

@@ -7,7 +7,7 @@
 #include "shared/recipe.h"
 
 // Does what pel_renderer_bake says. `*kernel` is NULL at first, and the caller destroys it; with it
-// the next volume needs no build.
+// the next volume needs no build. `options` may be NULL.
 struct pel_volume *pel_bake(struct pel_device *device, struct pel_kernel **kernel,
                             const char *recipe, const struct pel_bake_options *options);
 

@@ -2,7 +2,6 @@
 #include "render/bakery.h"
 
 #include "base/error.h"
-#include "render/bake.h"
 #include "volume/hypertexture.h"
 #include "world/hypertexture.h"
 

@@ -2,8 +2,8 @@
 #ifndef PEL_RENDER_BAKERY_H
 #define PEL_RENDER_BAKERY_H
 
-#include "device/device.h"
 #include "pellucid.h"
+#include "render/bake.h"
 
 // Baked volumes, kept from frame to frame. Zero-initialise.
 struct pel_bakery {

@@ -1,8 +1,7 @@
 // renderer.c - the frame loop.
 //
 // A frame is: plan where voxels lie, make the world's bytes, send what changed, choose the kernel,
-// and run it over the picture's tiles in batches, short enough for a watchdog and for a progress
-// display. What is on the device stays there, so the next frame sends only what differs from it.
+// and run it over the tiles in short batches. What is on the device stays for the next frame.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +10,6 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "device/device.h"
-#include "render/bake.h"
 #include "render/bakery.h"
 #include "render/debug.h"
 #include "render/frame.h"
@@ -217,14 +215,21 @@ static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
     return pel_device_finish(renderer->device);
 }
 
-static uint64_t count_samples(struct pel_renderer *renderer, size_t packets) {
-    uint32_t *counts = pel_allocate(packets, sizeof *counts);
-    uint64_t sum = 0;
-    if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts))
-        for (size_t i = 0; i < packets; i++)
-            sum += counts[i];
+// Adds up what the packets have counted.
+static void count_samples(struct pel_renderer *renderer, size_t packets,
+                          struct pel_render_statistics *statistics) {
+    uint32_t(*counts)[SAMPLE_COUNTS] = pel_allocate(packets, sizeof *counts);
+    uint64_t possible = 0;
+    if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts)) {
+        for (size_t i = 0; i < packets; i++) {
+            statistics->samples += counts[i][SAMPLES_TAKEN];
+            statistics->samples_terminated += counts[i][SAMPLES_BEHIND];
+            possible += counts[i][SAMPLES_POSSIBLE];
+        }
+        statistics->samples_skipped =
+            possible - statistics->samples - statistics->samples_terminated;
+    }
     free(counts);
-    return sum;
 }
 
 // The work-group that the user, the device or the kernel allows: a power of two.
@@ -260,7 +265,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     size_t packets = (extent->tiles + extent->tiles_per_group) * extent->packets_per_tile;
     if (!pel_residency_update(&renderer->residency, scene, layout, world) ||
-        !pel_mirror_update(&renderer->world, device, &world->bytes, sizeof world->bytes,
+        !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
                            sizeof world->bytes.camera, "the scene", NULL) ||
         !pel_mirror_update(&renderer->tables, device, world->tables,
                            world->table_words * sizeof *world->tables, 0, "transfer functions",
@@ -270,7 +275,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         (world->supersampling &&
          !pel_resolve_prepare(&renderer->resolve, device, kernel, pixels)) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
-                     packets * sizeof(u32), device, "sample counts"))
+                     packets * SAMPLE_COUNTS * sizeof(u32), device, "sample counts"))
         return NULL;
     statistics->upload_ms = lap_ms(&mark);
     struct pel_layout_limits limits =
@@ -339,7 +344,7 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
         pel_image_destroy(image);
         return NULL;
     }
-    statistics->samples = count_samples(renderer, extent->tiles * extent->packets_per_tile);
+    count_samples(renderer, extent->tiles * extent->packets_per_tile, statistics);
     statistics->download_ms = lap_ms(&mark);
     return image;
 }
@@ -394,20 +399,18 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_layout layout;
     struct pel_world world;
     struct pel_scene shown;
-    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown))
+    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown) ||
+        !plan(renderer, &shown, &layout, &world, statistics))
         return NULL;
-    scene = &shown;
-    if (!plan(renderer, scene, &layout, &world, statistics))
-        return NULL;
-    struct pel_image *image;
+    struct pel_image *image = NULL;
     if (world.bytes.part_count == 0) {
         image = render_background(&world);
     } else {
         struct extent extent;
-        struct pel_kernel *kernel = prepare(renderer, scene, &layout, &world, &extent, statistics);
-        image =
-            kernel ? run(renderer, kernel, scene, &extent, world.supersampling, options, statistics)
-                   : NULL;
+        struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &extent, statistics);
+        if (kernel)
+            image =
+                run(renderer, kernel, &shown, &extent, world.supersampling, options, statistics);
     }
     pel_world_finish(&world);
     const struct pel_device_info *info = pel_device_describe(renderer->device);
@@ -459,9 +462,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
 
 struct pel_volume *pel_renderer_bake(struct pel_renderer *renderer, const char *recipe,
                                      const struct pel_bake_options *options) {
-    static const struct pel_bake_options defaults;
-    return pel_bake(renderer->device, &renderer->bakery.kernel, recipe,
-                    options ? options : &defaults);
+    return pel_bake(renderer->device, &renderer->bakery.kernel, recipe, options);
 }
 
 struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *options) {
@@ -494,7 +495,6 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_buffer_destroy(renderer->sample_counts);
     pel_kernel_cache_finish(&renderer->kernels);
     pel_bakery_finish(&renderer->bakery);
-    pel_live_finish(&renderer->residency.live);
     pel_device_close(renderer->device);
     free(renderer);
 }

@@ -261,6 +261,7 @@ void pel_residency_finish(struct pel_residency *residency) {
         residency->atlases[class] = NULL;
     }
     pel_pool_finish(&residency->pool);
+    pel_live_finish(&residency->live);
     pel_buffer_destroy(residency->ranges);
     residency->ranges = NULL;
     memset(&residency->layout, 0, sizeof residency->layout);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "shared/variant.h"
 #include "world/bricks.h"
+#include "world/clip.h"
 #include "world/model.h"
 #include "world/step.h"
 
@@ -45,7 +46,7 @@ bool pel_settings_check(const struct pel_scene *scene) {
         if (!isfinite(scene->instances[k].priority))
             return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': priority %g, must be finite",
                             scene->instances[k].name, scene->instances[k].priority);
-    return pel_model_check(scene) && pel_bricks_check(&settings->bricks) &&
+    return pel_model_check(scene) && pel_clip_check(scene) && pel_bricks_check(&settings->bricks) &&
            check_supersampling(&settings->supersampling);
 }
 

@@ -26,6 +26,8 @@ static void add_statistics(struct pel_render_statistics *sum,
                            const struct pel_render_statistics *eye) {
     struct pel_render_statistics both = *eye;
     both.samples += sum->samples;
+    both.samples_skipped += sum->samples_skipped;
+    both.samples_terminated += sum->samples_terminated;
     both.rays += sum->rays;
     both.uploaded_bytes += sum->uploaded_bytes;
     both.prepare_ms += sum->prepare_ms;

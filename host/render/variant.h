@@ -18,6 +18,7 @@ struct pel_variant {
     int skip;       // SKIP_*
     bool pool;      // bricks come from a pool
     int capacity;   // parts: 1, 8 or WORLD_PART_MAX
+    bool clip;      // some part is clipped
     bool shading;   // some part is shaded
     bool table_linear;
     bool supersampling; // one of several rays of each pixel at a time

@@ -22,6 +22,28 @@ enum pel_model pel_model_of(const struct pel_scene *scene, const struct pel_inst
     return scene->render.model != PEL_MODEL_DEFAULT ? scene->render.model : PEL_MODEL_ABSORPTION;
 }
 
+bool pel_model_is_preintegrated(const struct pel_scene *scene,
+                                const struct pel_instance *instance) {
+    return (scene->render.preintegration || instance->preintegration) &&
+           pel_model_of(scene, instance) == PEL_MODEL_ABSORPTION;
+}
+
+static bool check_preintegration(const struct pel_scene *scene,
+                                 const struct pel_instance *instance) {
+    if (!pel_model_is_preintegrated(scene, instance))
+        return true;
+    enum pel_voxel_type type = scene->volumes[instance->volume]->type;
+    if (type == PEL_VOXEL_RGB8 || type == PEL_VOXEL_RGBA8)
+        return pel_fail(PEL_ERROR_ARGUMENT,
+                        "volume '%s': preintegration is of a transfer function's colours, and the "
+                        "volume has its own",
+                        instance->name);
+    if (scene->render.order == PEL_ORDER_BACK_TO_FRONT)
+        return pel_fail(PEL_ERROR_ARGUMENT,
+                        "volume '%s': preintegration goes from front to back only", instance->name);
+    return true;
+}
+
 static bool check_surfaces(const struct pel_instance *instance) {
     if (instance->surface_count < 0 || instance->surface_count > PEL_SURFACE_MAX)
         return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': %d surfaces, more than %d",
@@ -43,10 +65,11 @@ int pel_model_kernel(const struct pel_scene *scene) {
             continue;
         if (model == PEL_MODEL_EMISSION)
             return MODELS_EMISSION;
-        models |= model == PEL_MODEL_THESIS ? MODELS_THESIS
-                  : model == PEL_MODEL_ISO  ? MODELS_ISO
-                  : is_projection(model)    ? MODELS_PROJECTION
-                                            : 0;
+        models |= pel_model_is_preintegrated(scene, &scene->instances[k]) ? MODELS_PREINTEGRATED
+                  : model == PEL_MODEL_THESIS                             ? MODELS_THESIS
+                  : model == PEL_MODEL_ISO                                ? MODELS_ISO
+                  : is_projection(model)                                  ? MODELS_PROJECTION
+                                                                          : 0;
     }
     return models;
 }
@@ -72,7 +95,7 @@ bool pel_model_check(const struct pel_scene *scene) {
         if (instance->hidden)
             continue;
         enum pel_model model = pel_model_of(scene, instance);
-        if (!check_surfaces(instance))
+        if (!check_surfaces(instance) || !check_preintegration(scene, instance))
             return false;
         if (is_projection(model) && settings->order == PEL_ORDER_BACK_TO_FRONT)
             return pel_fail(PEL_ERROR_ARGUMENT,
@@ -140,6 +163,8 @@ void pel_model_fill_rule(struct pel_strength_rule *rule, const struct pel_scene 
         [PEL_MODEL_THESIS] = MODEL_THESIS,
     };
     rule->model = numbers[pel_model_of(scene, instance)];
+    if (pel_model_is_preintegrated(scene, instance))
+        rule->model = MODEL_PREINTEGRATED;
     rule->density = instance->density;
     rule->opacity_unit_mm = instance->transfer->opacity_unit_mm;
     if (rule->model == MODEL_EMISSION)

@@ -8,6 +8,9 @@
 // The model of an instance, its own or the scene's; never PEL_MODEL_DEFAULT.
 enum pel_model pel_model_of(const struct pel_scene *scene, const struct pel_instance *instance);
 
+// True when an instance's absorption is integrated between samples.
+bool pel_model_is_preintegrated(const struct pel_scene *scene, const struct pel_instance *instance);
+
 // Fails (ARGUMENT) on models that make no sense, alone or together.
 bool pel_model_check(const struct pel_scene *scene);
 

@@ -17,16 +17,17 @@
 // Scenes are written by people.
 enum { SCENE_BYTES_MAX = 16 << 20 };
 
-static const char *const scene_keys[] = {"$schema",   "comment", "camera", "background",
-                                         "lights",    "volumes", "render", "stereo",
-                                         "animation", "output",  NULL};
+static const char *const scene_keys[] = {"$schema", "comment", "camera", "background", "lights",
+                                         "volumes", "render",  "stereo", "animation",  "output",
+                                         "wall",    "clip",    NULL};
 
 static bool read_document(struct pel_scene *scene, struct pel_scene_plan *plan) {
     const struct pel_scene_node *node = &plan->scene;
     const char *schema;
     return pel_node_check_object(node, scene_keys) && pel_node_get_text(node, "$schema", &schema) &&
            pel_scene_read_settings(scene, node) && pel_scene_read_stereo(scene, node) &&
-           pel_scene_read_volumes(scene, plan) && pel_scene_read_camera(&plan->camera, node, scene);
+           pel_scene_read_wall(scene, node) && pel_scene_read_volumes(scene, plan) &&
+           pel_scene_read_camera(&plan->camera, node, scene);
 }
 
 static bool write_text(struct pel_scene *scene, const json_t *root) {

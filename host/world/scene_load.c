@@ -222,5 +222,5 @@ bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan
             return false;
     if (!before)
         warn_unseen(scene);
-    return true;
+    return pel_scene_settle_quality(scene, plan);
 }

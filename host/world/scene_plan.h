@@ -57,6 +57,7 @@ struct pel_scene_plan {
 // First pass, in parts; the camera comes after the volumes. All fail like the functions of
 // scene_node.h.
 bool pel_scene_read_settings(struct pel_scene *scene, const struct pel_scene_node *node);
+bool pel_scene_read_wall(struct pel_scene *scene, const struct pel_scene_node *node);
 bool pel_scene_read_stereo(struct pel_scene *scene, const struct pel_scene_node *node);
 bool pel_scene_read_volumes(struct pel_scene *scene, struct pel_scene_plan *plan);
 bool pel_scene_read_camera(struct pel_camera_plan *plan, const struct pel_scene_node *root,
@@ -70,6 +71,10 @@ bool pel_scene_read_transfer_value(struct pel_transfer **transfer,
 bool pel_scene_read_lights(struct pel_scene *scene, const struct pel_scene_node *node);
 bool pel_scene_read_material(struct pel_material *material, const struct pel_scene_node *volume);
 
+// Up to PEL_CLIP_MAX planes and boxes, in the world unless they are a volume's.
+bool pel_scene_read_clips(const struct pel_scene_node *object, bool of_scene, int *count,
+                          struct pel_clip clips[PEL_CLIP_MAX]);
+
 // A colour by name, as #rrggbb[aa] or as 3 or 4 numbers; without an alpha, rgba[3] stays.
 bool pel_scene_read_colour(double rgba[4], const struct pel_scene_node *object, const char *key);
 
@@ -78,6 +83,7 @@ bool pel_scene_read_step(const struct pel_scene_node *object, double *step, doub
 
 // How light is gathered: the scene's settings, and what a volume has of its own.
 bool pel_scene_read_march(struct pel_render_settings *render, const struct pel_scene_node *node);
+bool pel_scene_read_quality(const struct pel_scene_node *render, double *quality);
 bool pel_scene_read_model(struct pel_instance *instance, const struct pel_scene_node *volume);
 
 // The one instance of that name; fails about `node` when there is none, or several.
@@ -89,6 +95,9 @@ bool pel_scene_find_instance(const struct pel_scene *scene, const struct pel_sce
 bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan,
                             const struct pel_scene *before);
 bool pel_scene_place_camera(struct pel_scene *scene, const struct pel_camera_plan *plan);
+
+// What a scene's quality leaves to be chosen, once the volumes are there.
+bool pel_scene_settle_quality(struct pel_scene *scene, const struct pel_scene_plan *plan);
 
 // A transfer function that shows what is in a volume nobody has described: see scene_auto.c. The
 // caller owns it; NULL (MEMORY).

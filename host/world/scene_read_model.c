@@ -49,10 +49,13 @@ static void write_step(struct pel_scene_writer *writer, json_t *object, double s
 
 bool pel_scene_read_march(struct pel_render_settings *render, const struct pel_scene_node *node) {
     int order = (int)render->order;
+    double quality = 0;
     bool good = read_optical_model(&render->model, node) &&
                 pel_node_get_name(node, "order", order_names, &order) &&
                 pel_node_get_number(node, "emission_scale", &pel_positive_number,
                                     &render->emission_scale) &&
+                pel_node_get_bool(node, "preintegration", &render->preintegration) &&
+                pel_scene_read_quality(node, &quality) &&
                 pel_scene_read_step(node, &render->step, &render->step_mm);
     render->order = (enum pel_order)order;
     return good;
@@ -63,6 +66,7 @@ void pel_scene_write_march(struct pel_scene_writer *writer, json_t *object) {
     write_optical_model(writer, object, render->model);
     pel_write_name(writer, object, "order", order_names, render->order, PEL_ORDER_FRONT_TO_BACK);
     pel_write_number(writer, object, "emission_scale", render->emission_scale, 0);
+    pel_write_bool(writer, object, "preintegration", render->preintegration, false);
     write_step(writer, object, render->step, render->step_mm, writer->usual->render.step);
 }
 
@@ -93,7 +97,8 @@ static bool read_surface(struct pel_surface *surface, const struct pel_scene_nod
 
 bool pel_scene_read_model(struct pel_instance *instance, const struct pel_scene_node *volume) {
     struct pel_scene_node node;
-    if (!read_optical_model(&instance->model, volume))
+    if (!read_optical_model(&instance->model, volume) ||
+        !pel_node_get_bool(volume, "preintegration", &instance->preintegration))
         return false;
     if (!pel_node_member(&node, volume, "iso"))
         return true;
@@ -115,6 +120,7 @@ void pel_scene_write_model(struct pel_scene_writer *writer, json_t *volume,
                            const struct pel_instance *instance) {
     write_optical_model(writer, volume, instance->model);
     write_step(writer, volume, instance->step, instance->step_mm, 0);
+    pel_write_bool(writer, volume, "preintegration", instance->preintegration, false);
     if (instance->surface_count == 0)
         return;
     json_t *list = json_array();

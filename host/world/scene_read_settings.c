@@ -14,9 +14,10 @@
 enum { PICTURE_MAX = 32768 };
 
 static const char *const render_keys[] = {
-    "comment", "size",           "mixing", "step",          "step_mm", "phase", "termination",
-    "origin",  "skip",           "bricks", "supersampling", "jitter",  "debug", "model",
-    "order",   "emission_scale", NULL};
+    "comment",        "size",           "mixing",  "step",  "step_mm",
+    "phase",          "termination",    "origin",  "skip",  "bricks",
+    "supersampling",  "jitter",         "debug",   "model", "order",
+    "emission_scale", "preintegration", "quality", NULL};
 static const char *const brick_keys[] = {"comment", "size", "cluster", "pool", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
@@ -241,8 +242,9 @@ static void write_output(struct pel_scene_writer *writer, json_t *scene) {
 
 bool pel_scene_read_settings(struct pel_scene *scene, const struct pel_scene_node *node) {
     return pel_scene_read_colour(scene->background, node, "background") &&
-           pel_scene_read_lights(scene, node) && read_render(&scene->render, node) &&
-           read_output(&scene->output, node);
+           pel_scene_read_lights(scene, node) &&
+           pel_scene_read_clips(node, true, &scene->clip_count, scene->clips) &&
+           read_render(&scene->render, node) && read_output(&scene->output, node);
 }
 
 void pel_scene_write_settings(struct pel_scene_writer *writer, json_t *root) {

@@ -13,10 +13,10 @@
 #include "world/scene_write.h"
 
 static const char *const volume_keys[] = {
-    "comment", "file",    "hypertexture", "generate", "raw",          "time",
-    "channel", "name",    "visible",      "spacing",  "transform",    "transfer",
-    "density", "extent",  "filter",       "palette",  "opacity_unit", "shading",
-    "step",    "step_mm", "model",        "iso",      "priority",     NULL};
+    "comment", "file",     "hypertexture",   "generate",  "raw",      "time",    "channel",
+    "name",    "visible",  "spacing",        "transform", "transfer", "density", "extent",
+    "filter",  "palette",  "opacity_unit",   "shading",   "step",     "step_mm", "model",
+    "iso",     "priority", "preintegration", "clip",      NULL};
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};
@@ -88,6 +88,7 @@ static bool read_volume(struct pel_instance *instance, struct pel_volume_plan *p
         !pel_scene_read_step(node, &instance->step, &instance->step_mm) ||
         !pel_scene_read_model(instance, node) ||
         !pel_scene_read_material(&instance->material, node) ||
+        !pel_scene_read_clips(node, false, &instance->clip_count, instance->clips) ||
         !pel_node_get_number(node, "priority", &pel_any_number, &instance->priority) ||
         !pel_node_get_name(node, "extent", extent_names, &extent) ||
         !pel_node_get_name(node, "filter", filter_names, &filter))
@@ -120,6 +121,7 @@ static void write_volume(struct pel_scene_writer *writer, json_t *volume,
     pel_scene_write_pose(writer, volume, &instance->transform);
     pel_write_value(writer, volume, "transfer", pel_transfer_write(instance->transfer));
     pel_write_number(writer, volume, "density", instance->density, usual.density);
+    pel_scene_write_clips(writer, volume, false, instance->clip_count, instance->clips);
     pel_write_number(writer, volume, "priority", instance->priority, usual.priority);
     pel_scene_write_model(writer, volume, instance);
     pel_scene_write_material(writer, volume, &instance->material);

@@ -178,9 +178,11 @@ static json_t *write_scene(const struct pel_scene *scene, const char *folder) {
         struct pel_scene_writer writer = {.scene = scene, .usual = usual, .folder = folder};
         pel_scene_write_camera(&writer, root);
         pel_scene_write_lights(&writer, root);
+        pel_scene_write_clips(&writer, root, true, scene->clip_count, scene->clips);
         pel_scene_write_volumes(&writer, root);
         pel_scene_write_settings(&writer, root);
         pel_scene_write_stereo(&writer, root);
+        pel_scene_write_wall(&writer, root);
         pel_scene_write_animation(&writer, root);
         if (writer.failed) {
             json_decref(root);

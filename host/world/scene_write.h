@@ -46,6 +46,7 @@ void pel_write_colour(struct pel_scene_writer *writer, json_t *object, const cha
 void pel_scene_write_settings(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_camera(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_lights(struct pel_scene_writer *writer, json_t *root);
+void pel_scene_write_wall(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_stereo(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_volumes(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_animation(struct pel_scene_writer *writer, json_t *root); // after all others
@@ -56,6 +57,8 @@ void pel_scene_write_pose(struct pel_scene_writer *writer, json_t *volume,
 void pel_scene_write_march(struct pel_scene_writer *writer, json_t *render);
 void pel_scene_write_model(struct pel_scene_writer *writer, json_t *volume,
                            const struct pel_instance *instance);
+void pel_scene_write_clips(struct pel_scene_writer *writer, json_t *object, bool of_scene,
+                           int count, const struct pel_clip *clips);
 void pel_scene_write_material(struct pel_scene_writer *writer, json_t *volume,
                               const struct pel_material *material);
 

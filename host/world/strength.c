@@ -69,7 +69,7 @@ void pel_strength_write(u32 *words, const struct pel_table *table, int refinemen
 }
 
 bool pel_strength_is_gentle(const struct pel_table *table, const struct pel_strength_rule *rule) {
-    if (table->nearest || rule->model == MODEL_ISO)
+    if (table->nearest || rule->model == MODEL_ISO || rule->model == MODEL_PREINTEGRATED)
         return true;
     struct pel_strength_rule opacity_rule = *rule;
     opacity_rule.depth = false;

@@ -11,9 +11,11 @@
 #include "base/memory.h"
 #include "camera/camera.h"
 #include "world/brick.h"
+#include "world/clip.h"
 #include "world/lighting.h"
 #include "world/mixing.h"
 #include "world/model.h"
+#include "world/pairs.h"
 #include "world/step.h"
 #include "world/strength.h"
 
@@ -68,14 +70,13 @@ static double stored_bias(enum pel_voxel_type type) {
 
 // How the kernel finds the table's entry for what it reads.
 static void fill_table_address(struct part *part, const struct pel_volume *volume,
-                               const struct pel_table *table, int refinement,
-                               enum pel_reader reader) {
+                               const struct pel_table *table, int last, enum pel_reader reader) {
     double bias = stored_bias(volume->type);
     double factor = pel_reader_factor(reader, pel_voxel_class(volume->type));
-    double entries = (table->entry_count - 1) * refinement / (table->high - table->low);
+    double entries = last / (table->high - table->low);
     part->table_scale = (float)(volume->slope * factor * entries);
     part->table_bias = (float)((volume->intercept + volume->slope * bias - table->low) * entries);
-    part->table_last = (float)((table->entry_count - 1) * refinement);
+    part->table_last = (float)last;
     part->table_nearest = table->nearest;
 }
 
@@ -188,10 +189,41 @@ static double sample_mm(const struct pel_world *world, const struct pel_scene *s
                                            : world->bytes.step_mm;
 }
 
+// Appends a table of pairs of values, over those that the volume has.
+static bool fill_pairs(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_layout *layout, const struct pel_instance *instance,
+                       const struct pel_table *table, const struct pel_strength_rule *rule,
+                       struct part *part) {
+    size_t entries = (size_t)PAIR_ENTRIES * PAIR_ENTRIES;
+    size_t words = world->table_words + entries * PEL_STRENGTH_WORDS;
+    u32 *tables = realloc(world->tables, words * sizeof *tables);
+    if (!tables)
+        return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
+    world->tables = tables;
+    const struct pel_statistics *values = &scene->statistics[instance->volume];
+    bool ranges = values->max > values->min;
+    struct pel_table ends = *table;
+    ends.low = values->min;
+    ends.high = ranges ? values->max : values->min + 1;
+    u32 along[PAIR_ENTRIES][PEL_STRENGTH_WORDS];
+    pel_pairs_write(tables + world->table_words, along, table, (double[]){ends.low, ends.high},
+                    rule);
+    part->table = (u32)world->table_words;
+    world->table_words = words;
+    fill_table_address(part, scene->volumes[instance->volume], &ends, PAIR_ENTRIES - 1,
+                       layout->reader);
+    return count_visible(world, along[0], PAIR_ENTRIES, part);
+}
+
 // Appends the instance's table to the world's and lets `part` refer to it.
 static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_layout *layout, const struct pel_instance *instance,
                        const struct pel_table *table, struct part *part) {
+    struct pel_strength_rule rule = {.step_mm = sample_mm(world, scene, instance),
+                                     .depth = world->depth};
+    pel_model_fill_rule(&rule, scene, instance);
+    if (rule.model == MODEL_PREINTEGRATED)
+        return fill_pairs(world, scene, layout, instance, table, &rule, part);
     int refinement = pel_strength_refinement(table, world->table_linear);
     // One entry more: interpolation at the last one reads the next, at weight 0.
     size_t entries = (size_t)(table->entry_count - 1) * (size_t)refinement + 2;
@@ -201,9 +233,6 @@ static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
         return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
     world->tables = tables;
     u32 *start = tables + world->table_words;
-    struct pel_strength_rule rule = {.step_mm = sample_mm(world, scene, instance),
-                                     .depth = world->depth};
-    pel_model_fill_rule(&rule, scene, instance);
     pel_strength_write(start, table, refinement, &rule);
     memcpy(start + (entries - 1) * PEL_STRENGTH_WORDS, start + (entries - 2) * PEL_STRENGTH_WORDS,
            PEL_STRENGTH_WORDS * sizeof *start);
@@ -211,7 +240,8 @@ static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
     world->table_words = words;
     if (!count_visible(world, start, entries, part))
         return false;
-    fill_table_address(part, scene->volumes[instance->volume], table, refinement, layout->reader);
+    fill_table_address(part, scene->volumes[instance->volume], table,
+                       (table->entry_count - 1) * refinement, layout->reader);
     return true;
 }
 
@@ -313,6 +343,7 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
             return pel_fail_in("volume '%s'", instance->name);
         world->shaded |= pattern.shading != SHADING_NONE;
         pattern.rank = (float)pel_mixing_rank(scene, instance);
+        pel_clip_fill_part(world, &pattern, scene, instance, centre);
         // Only media are mixed.
         pattern.medium =
             pattern.model == MODEL_ABSORPTION ? world->bytes.medium_count++ : MEDIUM_NONE;
@@ -375,6 +406,10 @@ double pel_world_value(const struct pel_scene *scene, int instance, enum pel_rea
     const struct pel_volume *volume = scene->volumes[scene->instances[instance].volume];
     double stored = raw * pel_reader_factor(reader, pel_voxel_class(volume->type));
     return volume->slope * (stored + stored_bias(volume->type)) + volume->intercept;
+}
+
+size_t pel_world_bytes(const struct pel_world *world) {
+    return offsetof(struct world, cuts) + (size_t)world->cut_count * sizeof *world->bytes.cuts;
 }
 
 void pel_world_finish(struct pel_world *world) {

@@ -20,6 +20,7 @@ struct pel_world {
     int filters;        // FILTERS_*
     int mixing;         // MIXING_*
     int models;         // MODELS_*
+    int cut_count;      // of bytes.cuts, which end there
     bool table_linear;  // some table must be interpolated
     bool shaded;        // some part is
     bool supersampling; // several rays a pixel, or one that does not go through its centre
@@ -39,6 +40,9 @@ struct pel_world {
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout);
 void pel_world_finish(struct pel_world *world);
+
+// How many of the first bytes of world->bytes there are for a kernel to read.
+size_t pel_world_bytes(const struct pel_world *world);
 
 // The cells of part p along x, y and z (shared/grid.h).
 void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]);

@@ -17,6 +17,18 @@ INLINE struct sample sample_between(MEMORY_PARAMETERS, const struct spot *spot, 
                        cursor->oy + t * cursor->dy, cursor->oz + t * cursor->dz);
 }
 
+#if SHADING
+// Shades a colour at a place between samples, where the raw value is given.
+INLINE void shade_between(__constant struct world *world, MEMORY_PARAMETERS,
+                          const struct crossing *crossing, const struct spot *spot, real t, real raw,
+                          real *r, real *g, real *b) {
+    const struct cursor *cursor = spot->cursor;
+    shade(world, spot->part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
+          SAMPLE_NUMBER(crossing, spot->c, t), cursor->ox + t * cursor->dx, cursor->oy + t * cursor->dy,
+          cursor->oz + t * cursor->dz, raw, r, g, b);
+}
+#endif
+
 #if MODELS_SEGMENT
 // The raw value one sample before the spot; lanes that have none are cleared in *known.
 INLINE real raw_before(MEMORY_PARAMETERS, const struct gathered *gathered, const struct spot *spot,
@@ -85,11 +97,8 @@ INLINE mask gather_surfaces(__constant struct world *world, MEMORY_PARAMETERS,
         const real a = CHOOSE((real)(down.w), (real)(up.w), upwards);
 #if SHADING
         if (part->shading != SHADING_NONE) {
-            const struct cursor *cursor = spot->cursor;
             const real t = find_surface(MEMORY_ARGUMENTS, spot, before, value);
-            shade(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
-                  SAMPLE_NUMBER(crossing, spot->c, t), cursor->ox + t * cursor->dx,
-                  cursor->oy + t * cursor->dy, cursor->oz + t * cursor->dz, value, &r, &g, &b);
+            shade_between(world, MEMORY_ARGUMENTS, crossing, spot, t, value, &r, &g, &b);
         }
 #endif
         const real shown = CHOOSE((real)(0.0f), a, crossed);

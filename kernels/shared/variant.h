@@ -51,6 +51,9 @@
 #define MODEL_ISO 6
 #define MODEL_THESIS 7
 
+// Values along each side of a preintegrated part's table.
+#define PAIR_ENTRIES 256
+
 // MODELS: what else than absorption, gathered front to back, occurs, one bit each.
 #define MODELS_THESIS 1
 #define MODELS_ISO 2
@@ -82,6 +85,12 @@
 #define DEBUG_WORK_GROUP 4 // which work-group made the pixel
 #define DEBUG_WORK_ITEM 5  // which work-item of its group
 #define DEBUG_TIME 6       // milliseconds of the pixel's tile, by the host's clock
+
+// What each packet counts of its rays' samples.
+#define SAMPLES_TAKEN 0
+#define SAMPLES_POSSIBLE 1 // all those inside a part
+#define SAMPLES_BEHIND 2   // of these, those behind the end of a ray that ended early
+#define SAMPLE_COUNTS 3
 
 // Pixels along a side of the square tiles in which work is handed out.
 #define TILE_PX 16

@@ -18,6 +18,9 @@
 // 32 volumes, and room for the slabs of volumes too large for one buffer.
 #define WORLD_PART_MAX 64
 
+// Rows of clip planes and boxes: of 32 volumes, 8 boxes of three rows each and 8 of the scene.
+#define WORLD_CUT_MAX (32 * 16 * 3)
+
 // The ray of picture-plane coordinates (u, v), in -1..1 upwards and to the right, starts at
 // eye + u * eye_right + v * eye_up and runs along forward + u * right + v * up.
 struct camera {
@@ -71,10 +74,12 @@ struct part {
     i32 number;                 // of the part
     float rank;                 // of its priority among the visible instances'
     i32 medium;                 // which of the media that are mixed, or MEDIUM_NONE
-    i32 recipe;                 // 1 + number of what is worked out at every sample; 0: there are voxels
+    i32 cuts;                   // index of the first of its clips: planes, boxes, cut-away boxes
+    i32 plane_count, box_count, hole_count;
+    i32 recipe; // 1 + number of what is worked out at every sample; 0: there are voxels
 };
 
-SHARED_ASSERT(sizeof(struct part) == 336, part_size);
+SHARED_ASSERT(sizeof(struct part) == 352, part_size);
 
 struct world {
     struct camera camera;
@@ -97,8 +102,10 @@ struct world {
     i32 medium_count; // instances that are mixed
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
+    float4 cuts[WORLD_CUT_MAX]; // only as many as there are reach the device
 };
 
-SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 336 * WORLD_PART_MAX, world_size);
+SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 352 * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
+              world_size);
 
 #endif

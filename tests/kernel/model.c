@@ -47,6 +47,70 @@ static void test_models(void **state) {
     pel_renderer_destroy(renderer);
 }
 
+// A shell of a millimetre in a ramp is all there at steps of two voxels, as long as what
+// lies between samples counts.
+static void test_thin_shell(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, judge_packet_lanes());
+    struct pel_scene *scene = scene_create(24, 16);
+    const int dims[3] = {9, 9, 17};
+    const double range[2] = {0, 160}; // ten values a millimetre
+    // Depth 0.5 over a millimetre of the ramp, from value 71 to value 81: opaque to 1 - exp(-0.5).
+    const double opacity = 1 - exp(-0.5);
+    struct pel_transfer *transfer = scene_transfer(
+        (const double[][5]){
+            {71, 1, 1, 1, 0}, {71, 1, 1, 1, opacity}, {81, 1, 1, 1, opacity}, {81, 1, 1, 1, 0}},
+        4);
+    scene_add(scene, scene_volume_ramp(dims, PEL_VOXEL_F32, range), transfer);
+    scene_view_parallel(scene, 6);
+    scene->render.step = 2;
+    double errors[2];
+    for (int n = 0; n < 2; n++) {
+        scene->render.preintegration = n == 1;
+        errors[n] = 0;
+        for (int phase = 0; phase < 8; phase++) {
+            scene->render.phase = phase / 8.0;
+            struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, NULL);
+            assert_non_null(picture);
+            errors[n] = fmax(errors[n], fabs(picture->rgba[4 * (8 * 24 + 12) + 3] - opacity));
+            pel_image_destroy(picture);
+        }
+    }
+    assert_true(errors[0] > 0.3);
+    assert_true(errors[1] < 0.01);
+    pel_scene_destroy(scene);
+
+    // And it is what the reference integrates numerically, with another volume in the same place.
+    scene = scene_of_two();
+    scene->instances[0].preintegration = true;
+    scene->render.step = 1.5;
+    for (int skip = 0; skip < 2; skip++) {
+        scene->render.skip = skip ? PEL_SKIP_DISTANCE : PEL_SKIP_NONE;
+        pel_image_destroy(judge_render(renderer, scene, NULL, "preintegration"));
+    }
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
+// Every sample of every ray is taken, skipped, or behind the end of its ray.
+static void test_counts(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, judge_packet_lanes());
+    struct pel_scene *scene = scene_of_two();
+    struct pel_render_statistics all, some;
+    scene->render.skip = PEL_SKIP_NONE;
+    pel_image_destroy(pel_renderer_render(renderer, scene, NULL, &all));
+    assert_int_equal(all.samples_skipped, 0);
+    assert_int_equal(all.samples_terminated, 0);
+    scene->render.termination = 0.4;
+    pel_image_destroy(pel_renderer_render(renderer, scene, NULL, &some));
+    assert_int_equal(some.samples_skipped, 0);
+    assert_true(some.samples_terminated > all.samples / 10);
+    assert_int_equal(some.samples + some.samples_terminated, all.samples);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
 // A box of constant colour, however it lies, shines by the length of the ray in it; and without
 // steps there is no error but rounding's.
 static void test_emission(void **state) {
@@ -94,6 +158,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_models),
         cmocka_unit_test(test_emission),
+        cmocka_unit_test(test_thin_shell),
+        cmocka_unit_test(test_counts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,6 +17,7 @@
 
 #include "base/math.h"
 #include "reference/model.h"
+#include "reference/clip.h"
 #include "reference/mix.h"
 #include "reference/path.h"
 #include "reference/shade.h"
@@ -177,6 +178,16 @@ static struct doubt doubt_body(const struct spot *spot, int k, const struct refe
         doubt.wrong += doubt.medium.extinction * brightest(reference);
         doubt.low = 0;
     }
+    double margin_mm;
+    bool kept = reference_is_kept(reference, spot->path, body, t, &margin_mm);
+    if (margin_mm <= slack_mm) {
+        doubt.wrong += doubt.medium.extinction * brightest(reference);
+        doubt.low = 0;
+    } else if (!kept) {
+        doubt.wrong = doubt.low = doubt.high = 0;
+    }
+    if (!kept)
+        doubt.medium.extinction = 0;
     return doubt;
 }
 

@@ -8,7 +8,9 @@
 #include <stdlib.h>
 
 #include "base/math.h"
+#include "reference/clip.h"
 #include "reference/mix.h"
+#include "reference/pair.h"
 #include "reference/shade.h"
 
 // What lies at one sample, in front of what comes after it in this order.
@@ -227,6 +229,10 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
         total += model == PEL_MODEL_ABSORPTION;
         if (t < gathering->path->spans[k].t_in || t >= gathering->path->spans[k].t_out)
             continue;
+        if (!reference_is_kept(reference, gathering->path, body, t, NULL)) {
+            progress->known = false;
+            continue;
+        }
         ++*taken;
         bool present = sample_at(&sample, p_voxel, gathering, k, t);
         if (present && model == PEL_MODEL_ISO && progress->known)
@@ -236,7 +242,10 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
         if (present && model == PEL_MODEL_THESIS)
             add_thesis(layer, gathering, k, &sample);
         if (present && model == PEL_MODEL_ABSORPTION) {
-            media[count] = reference_classify(body->instance, &body->table, &sample);
+            double before = progress->known ? progress->value : sample.value;
+            media[count] = body->pairs
+                               ? reference_pair(body, before, sample.value, reference->step_mm)
+                               : reference_classify(body->instance, &body->table, &sample);
             media[count].body = total - 1;
             media[count].priority = body->instance->priority;
             media[count].step_mm = reference->step_mm;
@@ -255,7 +264,7 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
 
 bool reference_is_plain(const struct reference *reference) {
     for (int k = 0; k < reference->body_count; k++)
-        if (model_of(reference, k) != PEL_MODEL_ABSORPTION)
+        if (model_of(reference, k) != PEL_MODEL_ABSORPTION || reference->bodies[k].pairs)
             return false;
     return true;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/math.h"
+#include "reference/pair.h"
 #include "reference/reference.h"
 
 static void init_body(struct reference_body *body, const struct pel_scene *scene,
@@ -21,6 +22,12 @@ static void init_body(struct reference_body *body, const struct pel_scene *scene
         body->high[c] = body->volume->dims[c] - 1 + margin;
     }
     reference_table_init(&body->table, instance->transfer, body->volume);
+    if (reference_is_preintegrated(scene, instance)) {
+        const struct pel_statistics *values = &scene->statistics[instance->volume];
+        body->pairs = reference_pairs_create();
+        body->pair_range[0] = values->min;
+        body->pair_range[1] = values->max > values->min ? values->max : values->min + 1;
+    }
 }
 
 static double least_spacing(const struct reference_body *body) {
@@ -83,8 +90,10 @@ struct reference *reference_create(const struct pel_scene *scene) {
 void reference_destroy(struct reference *reference) {
     if (!reference)
         return;
-    for (int k = 0; k < reference->body_count; k++)
+    for (int k = 0; k < reference->body_count; k++) {
         reference_table_finish(&reference->bodies[k].table);
+        free(reference->bodies[k].pairs);
+    }
     free(reference);
 }
 

@@ -12,7 +12,9 @@ struct reference_body {
     struct pel_matrix world_from_voxel, voxel_from_world;
     double low[3], high[3]; // the box, in voxel coordinates
     struct reference_table table;
-    double step_mm; // that it asks for
+    double pair_range[2];
+    double (*pairs)[4]; // owned; of pairs of values, see pair.h. NaN: not worked out yet; or NULL
+    double step_mm;     // that it asks for
 };
 
 struct reference {

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "reference/clip.h"
 #include "reference/mix.h"
 #include "reference/model.h"
 #include "reference/path.h"
@@ -38,6 +39,9 @@ static void layer_at(double layer[4], const struct reference *reference,
     struct reference_medium media[PEL_VOLUME_MAX];
     int count = 0;
     for (int n = 0; n < stop->count; n++) {
+        if (!reference_is_kept(reference, path, &reference->bodies[stop->bodies[n]], stop->t[n],
+                               NULL))
+            continue;
         ++*taken;
         count += medium_at(&media[count], reference, path, stop->bodies[n], stop->t[n]);
     }

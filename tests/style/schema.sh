@@ -45,6 +45,9 @@ pairs = {
     "scene_read_pose.c:rotate_keys": (rotate, None),
     "scene_read_pose.c:file_keys": (file, None),
     "scene_read_pose.c:rotation_keys": (rotation, "rotate"),
+    "scene_read_clip.c:clip_keys": (defs["clip"], "clip"),
+    "scene_read_clip.c:plane_keys": (defs["plane"], "plane"),
+    "scene_read_clip.c:box_keys": (defs["box"], "box"),
     "scene_read_light.c:light_keys": (defs["light"], "light"),
     "scene_read_light.c:shading_keys": (defs["shading"]["anyOf"][1], "shading"),
     "scene_read_model.c:surface_keys": (defs["surface"]["anyOf"][1], "iso"),
@@ -53,6 +56,8 @@ pairs = {
     "scene_read_settings.c:brick_keys": (defs["bricks"], "bricks"),
     "scene_read_settings.c:supersampling_keys": (defs["supersampling"], "supersampling"),
     "scene_read_settings.c:output_keys": (defs["output"], "output"),
+    "scene_read_wall.c:wall_keys": (defs["wall"], "wall"),
+    "scene_read_wall.c:region_keys": (defs["region"], "region"),
     "scene_read_stereo.c:stereo_keys": (defs["stereo"], "stereo"),
     "scene_read_animation.c:animation_keys": (defs["animation"], "animation"),
     "scene_read_animation.c:track_keys": (defs["track"], "track"),
@@ -105,13 +110,16 @@ def place(section, key, value):
     holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"},
               "hypertexture": {"recipe": "cloud"}, "raw": {"dims": [1, 1, 1]},
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
-               "render": {}, "stereo": {}, "output": {}, "light": {}, "shading": {}, "supersampling": {}, "iso": {"value": 1},
+               "render": {}, "stereo": {}, "wall": {}, "region": {"place": [0, 0, 1, 1]}, "output": {}, "light": {}, "shading": {}, "supersampling": {}, "iso": {"value": 1},
+               "clip": {}, "plane": {"normal": [0, 0, 1]}, "box": {"size": [1, 1, 1]},
                "bricks": {}, "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
     if section == "transform":
         holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
                        "comment": {"file": "a"}}.get(key, {}))
     if section == "track" and key == "orbit":
         holder.clear()
+    if section == "clip" and key not in ("plane", "box"):
+        holder["plane"] = {"normal": [0, 0, 1]}
     if section == "light":
         holder["kind"] = {"direction": "directional", "position": "point"}.get(key, "headlight")
     holder[key] = value
@@ -130,6 +138,10 @@ def place(section, key, value):
         return {"volumes": [volume], "animation": {"tracks": [inner]}}
     elif section == "rotate":
         volume["transform"] = {"rotate": holder}
+    elif section == "clip":
+        return {"volumes": [{"file": "a", "clip": [holder]}]}
+    elif section in ("plane", "box"):
+        return {"volumes": [volume], "clip": [inner]}
     elif section == "light":
         return {"volumes": [volume], "lights": [holder]}
     elif section in ("raw", "transform", "transfer", "shading", "iso"):

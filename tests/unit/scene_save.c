@@ -45,7 +45,7 @@ static const char *const rich[] = {
     "   'opacities': [[1, 0.25], [2, 0.5], [3, 1]], 'scale': 'percentile',"
     "   'opacity_unit': 3, 'interpolation': 'nearest', 'entries': 77}, 'density': 0.7, 'priority': "
     "2,"
-    "   'extent': 'point', 'filter': 'nearest', 'step': 0.3,"
+    "   'extent': 'point', 'filter': 'nearest', 'step': 0.3, 'preintegration': true,"
     "   'shading': {'model': 'phong', 'ambient': 0.2, 'diffuse': 0.3, 'specular': 0.4,"
     "   'shininess': 55, 'two_sided': false}},"
     "   {'generate': {'kind': 'head-pair', 'size': 8, 'spacing': 20, 'type': 'float32',"
@@ -54,7 +54,7 @@ static const char *const rich[] = {
     " 'render': {'size': [34, 22], 'mixing': 'over', 'step': 0.7, 'phase': 0.25,"
     "   'termination': 0.8, 'origin': 'bounds', 'skip': 'grid', 'bricks': {'size': 16, 'cluster': "
     "false, 'pool': 'on'}, 'jitter': true, 'debug': 'spans', "
-    "'model': 'mip', 'order': 'back-to-front', 'emission_scale': 0.3,"
+    "'model': 'mip', 'order': 'back-to-front', 'emission_scale': 0.3, 'preintegration': true,"
     "   'supersampling': {'n': 2, 'pattern': 'n-rooks', 'filter': 'gaussian', 'seed': 3,"
     "   'adaptive': 0.1}},"
     " 'stereo': {'kind': 'matrix', 'separation': 5, 'convergence': 77.5, 'swap': true,"
@@ -65,13 +65,15 @@ static const char *const rich[] = {
     "   'values': [0, 1], 'interpolation': 'smooth'}, {'key': "
     "'volumes.first.transfer.opacity_unit', 'values': [1, 2]},"
     "   {'key': 'render.step', 'values': [1, 2]}]},"
+    " 'wall': {'regions': [{'place': [0, 0, 0.5, 1], 'monitor': 1, 'device': 'gpu'}]},"
     " 'output': {'file': 'out/picture.png', 'depth': 16, 'alpha': 'premultiplied'}}",
     "{'volumes': [{'file': 'a.raw', 'raw': {'dims': [2, 3, 4], 'offset': 0}, 'time': 0,"
     "   'channel': 0, 'transfer': {'points': [[0, '#ffffff', 0], [1, '#102030', 0.5]]}, 'shading': "
     "true}, {'hypertexture': {'recipe': {'value': ['*', 'time', 'object']}, 'size': 8, 'type':"
     "   'float32', 'seed': 3, 'time': 0.5, 'live': true, 'object': 'a.raw'}}],"
     " 'background': 'none', 'render': {'step_mm': 0.37},"
-    " 'stereo': {'kind': 'red-blue', 'separation': 0}, 'animation': {'duration': 2}, 'output': "
+    " 'stereo': {'kind': 'red-blue', 'separation': 0}, 'animation': {'duration': 2}, 'wall': "
+    "{'columns': 3, 'rows': 2, 'bezel': [0.04, 0.05]}, 'output': "
     "{'file': '-'}}",
 };
 
@@ -123,6 +125,7 @@ static void assert_same_scene(const struct pel_scene *a, const struct pel_scene 
     assert_memory_equal(a->lights, b->lights, sizeof a->lights);
     assert_memory_equal(&a->render, &b->render, sizeof a->render);
     assert_memory_equal(&a->stereo, &b->stereo, sizeof a->stereo);
+    assert_memory_equal(&a->wall, &b->wall, sizeof a->wall);
     assert_memory_equal(&a->timeline, &b->timeline, sizeof a->timeline);
     assert_int_equal(a->output.depth, b->output.depth);
     assert_int_equal(a->output.premultiplied, b->output.premultiplied);
@@ -157,17 +160,12 @@ static void test_round_trip(void **state) {
 // ---- Every key ---------------------------------------------------------------------------------
 
 // Keys that say what other keys say: what they mean is written by those.
-static const char *const other_words[] = {"comment",
-                                          "$schema",
-                                          "camera.view",
-                                          "camera.fit",
-                                          "volume.palette",
-                                          "volume.opacity_unit",
-                                          "transfer.preset",
-                                          "transfer.range",
-                                          "transfer.colors",
-                                          "transfer.scale",
-                                          NULL};
+static const char *const other_words[] = {
+    "comment",         "$schema",         "camera.view",
+    "camera.fit",      "volume.palette",  "volume.opacity_unit",
+    "render.quality",  "transfer.preset", "transfer.range",
+    "transfer.colors", "transfer.scale",  "wall.columns",
+    "wall.rows",       "wall.bezel",      NULL};
 
 // Objects whose keys are ways to say one thing.
 static const char *const other_ways[] = {"transform", NULL};
