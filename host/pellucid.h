@@ -675,6 +675,20 @@ PEL_API void pel_scene_destroy(struct pel_scene *scene);
 // cannot be; the scene then stays as it was.
 PEL_API bool pel_scene_set_frame(struct pel_scene *scene, double frame);
 
+// A viewpoint and when the camera is there.
+struct pel_keyframe {
+    double time_s; // from the first frame
+    struct pel_camera camera;
+};
+
+// Makes recorded viewpoints, in the order of their times, the way of the scene's camera, in place
+// of what moved it before; none takes its motion away. Other tracks stay. What was changed in the
+// scene since it was loaded is now what its animation acts upon, and no longer lost in
+// pel_scene_set_frame. Fails (ARGUMENT) when times do not ascend or a volume came from no file; the
+// scene then stays as it was.
+PEL_API bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
+                                     int count, double fps);
+
 // An empty scene with every default, to be filled by a program. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_create(void);
 
@@ -739,6 +753,30 @@ PEL_API bool pel_scene_bounds(const struct pel_scene *scene, struct pel_bounds *
 PEL_API bool pel_stereo_cameras(const struct pel_scene *scene, struct pel_camera cameras[2],
                                 struct pel_stereo *used);
 
+// Bricks of one volume, or of all together. The times are those of the last change of what is
+// visible.
+struct pel_brick_statistics {
+    int size;                                // voxels along a side; 0: there are none
+    uint64_t total, active, clusters;        //
+    uint64_t resident;                       // of the pool, on the device; 0 without one
+    double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
+};
+
+// How the bricks of a volume cluster (Ganter & Manzke 2019, table 1).
+struct pel_brick_report {
+    struct pel_brick_statistics bricks;
+    // Clusters that a ray of the scene's camera crosses, the mean over 64 x 64 rays that cover the
+    // picture, of those that cross any; and the same with every brick a cluster of its own.
+    double depth, depth_apart;
+};
+
+#define PEL_BRICK_SIZES 5 // of 8, 16, 32, 64 and 128 voxels
+
+// Measures an instance with its transfer function, for every size of bricks, on the host. False:
+// ARGUMENT, MEMORY.
+PEL_API bool pel_scene_measure_bricks(const struct pel_scene *scene, int instance,
+                                      struct pel_brick_report reports[PEL_BRICK_SIZES]);
+
 // ---- Devices -----------------------------------------------------------------------------------
 
 enum pel_reader { PEL_READER_AUTO, PEL_READER_BUFFER, PEL_READER_IMAGE };
@@ -782,14 +820,6 @@ struct pel_renderer_options {
 struct pel_image {
     int width, height;
     float *rgba; // owned; premultiplied; rows from the top
-};
-
-// Bricks, all volumes together. The times are those of the last change of what is visible.
-struct pel_brick_statistics {
-    int size;                                // voxels along a side; 0: there are none
-    uint64_t total, active, clusters;        //
-    uint64_t resident;                       // of the pool, on the device; 0 without one
-    double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
 };
 
 // The numbers of a debug view over the picture's pixels.

@@ -7,17 +7,19 @@
 #include "cli/options.h"
 #include "cli/report.h"
 
-enum { KEY_JSON = CLI_KEY_COMMAND };
+enum { KEY_JSON = CLI_KEY_COMMAND, KEY_BRICKS };
 
 struct arguments {
     char **files; // borrowed from the command line
     int file_count;
-    bool json;
+    bool json, bricks;
     struct pel_load_options load;
 };
 
 static const struct argp_option options[] = {
     {"json", KEY_JSON, NULL, 0, "Write a JSON array with an object for each file", 0},
+    {"bricks", KEY_BRICKS, NULL, 0,
+     "How many bricks of 8 to 128 voxels can be seen, and to how few clusters they join", 0},
     {0},
 };
 
@@ -27,6 +29,9 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     switch (key) {
     case KEY_JSON:
         arguments->json = true;
+        return 0;
+    case KEY_BRICKS:
+        arguments->bricks = true;
         return 0;
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &arguments->load;
@@ -82,31 +87,65 @@ static json_t *scene_json(const struct pel_scene *scene) {
     return object;
 }
 
+// Adds what is to be said about bricks to each volume of a scene; returns the exit status.
+static int add_bricks(const struct pel_scene *scene, json_t *volumes) {
+    for (int i = 0; i < scene->instance_count; i++) {
+        json_t *bricks = describe_bricks_json(scene, i);
+        if (!bricks)
+            return cli_fail_library();
+        json_object_set_new(json_array_get(volumes, (size_t)i), "bricks", bricks);
+    }
+    return PEL_OK;
+}
+
 // Both append to `array` or print, and return the exit status.
-static int show_scene(const char *path, json_t *array) {
+static int show_scene(const char *path, const struct arguments *arguments, json_t *array) {
     struct pel_scene *scene = pel_scene_load(path, NULL, 0);
     if (!scene)
         return cli_fail_library();
+    int status = PEL_OK;
     if (array) {
         json_t *object = scene_json(scene);
         json_object_set_new(object, "file", report_text(path));
+        if (arguments->bricks)
+            status = add_bricks(scene, json_object_get(object, "volumes"));
         json_array_append_new(array, object);
     } else {
         printf("%s\n", path);
         print_scene(scene);
+        for (int i = 0; !status && arguments->bricks && i < scene->instance_count; i++)
+            status = describe_bricks(scene, i, 4);
     }
     pel_scene_destroy(scene);
-    return PEL_OK;
+    return status;
 }
 
-static int show_volume(const char *path, const struct pel_load_options *load, json_t *array) {
-    struct pel_volume *volume = pel_volume_load(path, load);
+// Bricks are those that `pellucid render` would show of the file.
+static int show_file_bricks(const char *path, json_t *object) {
+    struct pel_scene *scene = pel_scene_from_files(&path, 1, NULL, 0);
+    if (!scene)
+        return cli_fail_library();
+    int status = PEL_OK;
+    json_t *bricks = object ? describe_bricks_json(scene, 0) : NULL;
+    if (!object)
+        status = describe_bricks(scene, 0, 2);
+    else if (bricks)
+        json_object_set_new(object, "bricks", bricks);
+    else
+        status = cli_fail_library();
+    pel_scene_destroy(scene);
+    return status;
+}
+
+static int show_volume(const char *path, const struct arguments *arguments, json_t *array) {
+    struct pel_volume *volume = pel_volume_load(path, &arguments->load);
     if (!volume)
         return cli_fail_library();
     struct pel_statistics statistics;
     pel_volume_measure(volume, &statistics);
+    json_t *object = NULL;
     if (array) {
-        json_t *object = describe_json(volume, &statistics);
+        object = describe_json(volume, &statistics);
         json_object_set_new(object, "file", report_text(path));
         json_array_append_new(array, object);
     } else {
@@ -114,7 +153,7 @@ static int show_volume(const char *path, const struct pel_load_options *load, js
         describe_print(volume, &statistics, 2);
     }
     pel_volume_destroy(volume);
-    return PEL_OK;
+    return arguments->bricks ? show_file_bricks(path, object) : PEL_OK;
 }
 
 int command_info(int argc, char **argv) {
@@ -128,6 +167,7 @@ int command_info(int argc, char **argv) {
                "Files that cannot be read are reported, and the others shown. Examples:\n\n"
                "  pellucid info head.nii.gz\n"
                "  pellucid info scene.json --json\n"
+               "  pellucid info scene.json --bricks\n"
                "  pellucid info dump.bin --raw dims=64x64x32,type=uint16\n",
         .children = cli_load_children,
     };
@@ -138,8 +178,8 @@ int command_info(int argc, char **argv) {
     json_t *array = arguments.json ? json_array() : NULL;
     for (int i = 0; i < arguments.file_count; i++) {
         const char *path = arguments.files[i];
-        int result = cli_is_scene(path) ? show_scene(path, array)
-                                        : show_volume(path, &arguments.load, array);
+        int result = cli_is_scene(path) ? show_scene(path, &arguments, array)
+                                        : show_volume(path, &arguments, array);
         if (!status)
             status = result;
     }

@@ -13,4 +13,9 @@ void describe_print(const struct pel_volume *volume, const struct pel_statistics
 // As a JSON object.
 json_t *describe_json(const struct pel_volume *volume, const struct pel_statistics *statistics);
 
+// How the bricks of an instance cluster, as lines, and as a JSON array; status, and NULL on
+// failure.
+int describe_bricks(const struct pel_scene *scene, int instance, int indent);
+json_t *describe_bricks_json(const struct pel_scene *scene, int instance);
+
 #endif

@@ -19,13 +19,13 @@
 #include "render/probe.h"
 #include "render/residency.h"
 #include "render/resolve.h"
+#include "render/target.h"
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
 #include "world/model.h"
 
-// A batch of tiles should take about this long unless the caller says otherwise.
-static const double batch_default_ms = 150;
+static const double batch_default_ms = 150; // of a batch of tiles, unless the caller says otherwise
 
 struct pel_renderer {
     struct pel_device *device;
@@ -36,8 +36,9 @@ struct pel_renderer {
     struct pel_occupancy occupancy;
     struct pel_resolve resolve;
     struct pel_bakery bakery;
-    struct pel_buffer *picture, *sample_counts;
-    size_t picture_bytes, sample_counts_bytes;
+    struct pel_target target;
+    struct pel_buffer *sample_counts;
+    size_t sample_counts_bytes;
     double tiles_per_ms; // as the last frame ran; 0 = unknown
     float *tile_ms;      // what each tile takes, while a debug view asks for it
 };
@@ -106,19 +107,17 @@ static bool check_memory(const struct pel_layout *layout, const struct pel_layou
 }
 
 // Where the kernel finds what changes from launch to launch.
-enum { FIRST_TILE_ARGUMENT = 4, RAY_ARGUMENT = 6 };
+enum { LIGHT_ARGUMENT = 2, FIRST_TILE_ARGUMENT = 4, RAY_ARGUMENT = 6 };
 
-// Binds everything but the first tile and the ray's number, in the order of the kernel's
-// parameters. A kernel has an atlas for each class in `voxels` only.
+// Binds everything but where light goes, the first tile, and the ray's number, in the order of the
+// kernel's parameters. A kernel has an atlas for each class in `voxels` only.
 static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel,
                           const struct pel_variant *variant) {
-    const struct pel_buffer *light =
-        variant->supersampling ? renderer->resolve.light : renderer->picture;
     int index = 0;
     bool good = pel_kernel_set_buffer(kernel, index++, renderer->world.buffer) &&
-                pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer) &&
-                pel_kernel_set_buffer(kernel, index++, light) &&
-                pel_kernel_set_buffer(kernel, index++, renderer->sample_counts);
+                pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer);
+    index++; // light is set when there is an image
+    good = good && pel_kernel_set_buffer(kernel, index++, renderer->sample_counts);
     index++; // the first tile is set for each batch
     good = good && pel_kernel_set_buffer(kernel, index++, pel_occupancy_map(&renderer->occupancy));
     if (variant->supersampling) {
@@ -205,8 +204,8 @@ static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
     for (int ray = 0; ray < n * n; ray++, pass.number++) {
         if (!pel_kernel_set_u32(kernel, RAY_ARGUMENT, (uint32_t)ray) ||
             !run_tiles(renderer, kernel, extent, options, pass) ||
-            !pel_resolve_add(&renderer->resolve, renderer->world.buffer, renderer->picture, pixels,
-                             ray))
+            !pel_resolve_add(&renderer->resolve, renderer->world.buffer, renderer->target.buffer,
+                             pixels, ray))
             return false;
         slowest = fmin(slowest, renderer->tiles_per_ms);
     }
@@ -270,8 +269,6 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         !pel_mirror_update(&renderer->tables, device, world->tables,
                            world->table_words * sizeof *world->tables, 0, "transfer functions",
                            NULL) ||
-        !grow_buffer(&renderer->picture, &renderer->picture_bytes, pixels * sizeof(float4), device,
-                     "the picture") ||
         (world->supersampling &&
          !pel_resolve_prepare(&renderer->resolve, device, kernel, pixels)) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
@@ -330,12 +327,17 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
                              bool supersampling, const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = now_ms();
-    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
-    bool good = run_passes(renderer, kernel, scene, extent, supersampling, options, statistics);
+    struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
+    if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
+        pel_image_destroy(image);
+        return NULL;
+    }
+    const struct pel_buffer *light =
+        supersampling ? renderer->resolve.light : renderer->target.buffer;
+    bool good = pel_kernel_set_buffer(kernel, LIGHT_ARGUMENT, light) &&
+                run_passes(renderer, kernel, scene, extent, supersampling, options, statistics);
     statistics->render_ms = lap_ms(&mark);
-    struct pel_image *image =
-        good ? pel_image_create(scene->render.width, scene->render.height) : NULL;
-    good = image && pel_buffer_read(renderer->picture, 0, pixels * sizeof(float4), image->rgba) &&
+    good = pel_target_end(&renderer->target, image, good) &&
            (scene->render.debug == PEL_DEBUG_NONE ||
             paint(image, renderer, scene->render.debug, options, statistics));
     free(renderer->tile_ms);
@@ -491,7 +493,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_mirror_finish(&renderer->tables);
     pel_occupancy_finish(&renderer->occupancy);
     pel_resolve_finish(&renderer->resolve);
-    pel_buffer_destroy(renderer->picture);
+    pel_target_finish(&renderer->target);
     pel_buffer_destroy(renderer->sample_counts);
     pel_kernel_cache_finish(&renderer->kernels);
     pel_bakery_finish(&renderer->bakery);

@@ -93,7 +93,8 @@ static bool shipment_init(struct shipment *shipment, const struct pel_volume *vo
     if (bricks) {
         if (!pel_size_multiply(&shipment->layer_bytes, 4,
                                (size_t[]){pel_brick_count(dims[0]), pel_brick_count(dims[1]),
-                                          BRICK_VOXELS, shipment->voxel_bytes})) {
+                                          BRICK_VOXELS,
+                                          pel_brick_element_bytes(shipment->voxel_bytes)})) {
             shipment_finish(shipment);
             return false;
         }

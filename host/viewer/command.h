@@ -27,9 +27,8 @@ void pel_command_set_pose(struct pel_state *state, const struct pel_pose *pose);
 void pel_command_load_pose(struct pel_state *state, const char *path);
 void pel_command_save_pose(struct pel_state *state, const char *path);
 
-// Makes the range of values that a transfer function tells apart wider by a factor, about its
-// middle, and moves it up.
-void pel_command_level(struct pel_transfer *transfer, double wider, double up);
+// The selected volume takes a preset, the number counting pel_transfer_presets.
+void pel_command_preset(struct pel_state *state, int preset);
 
 // Adds a volume, or takes a scene in place of the present one; failure is a message in the window.
 void pel_command_open(struct pel_state *state, const char *path);

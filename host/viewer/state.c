@@ -18,6 +18,7 @@ void pel_state_renew(struct pel_state *state) {
 }
 
 void pel_state_change(struct pel_state *state, const char *what) {
+    state->slices_old = true;
     if (!pel_history_record(state->history, state->scene, what, state->gesture))
         pel_state_say(state, "this cannot be undone: %s", pel_error_message());
     pel_state_renew(state);
@@ -29,8 +30,11 @@ void pel_state_begin_gesture(struct pel_state *state) {
 }
 
 void pel_state_move_camera(struct pel_state *state) {
+    bool slices_old = state->slices_old;
     state->scene->camera = state->navigation.camera;
     pel_state_change(state, "move the camera");
+    // Slices do not depend on it.
+    state->slices_old = slices_old;
 }
 
 void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene) {
@@ -39,6 +43,7 @@ void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene) {
     if (state->selected >= scene->instance_count)
         state->selected = scene->instance_count - 1;
     pel_navigation_set(&state->navigation, &scene->camera);
+    state->slices_old = true;
     pel_state_renew(state);
 }
 

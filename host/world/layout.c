@@ -57,7 +57,7 @@ double pel_reader_factor(enum pel_reader reader, int class_index) {
 static uint64_t layer_bytes(const struct pel_volume *volume) {
     return (uint64_t)pel_brick_count((size_t)volume->dims[0] + 2) *
            pel_brick_count((size_t)volume->dims[1] + 2) * BRICK_VOXELS *
-           pel_voxel_class_bytes(pel_voxel_class(volume->type));
+           pel_brick_element_bytes(pel_voxel_class_bytes(pel_voxel_class(volume->type)));
 }
 
 // All stored bytes of the scene, borders included but not those between slabs.

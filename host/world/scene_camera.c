@@ -84,6 +84,17 @@ void pel_scene_write_camera(struct pel_scene_writer *writer, json_t *root) {
         pel_write_numbers(writer, object, "shift", 2, camera->shift);
 }
 
+void pel_scene_write_viewpoint(struct pel_scene_writer *writer, json_t *object,
+                               const struct pel_camera *camera) {
+    pel_write_numbers(writer, object, "eye", 3, camera->eye);
+    pel_write_numbers(writer, object, "target", 3, camera->target);
+    pel_write_numbers(writer, object, "up", 3, camera->up);
+    pel_write_value(writer, object, "fov", pel_write_make_number(camera->fov_deg));
+    pel_write_value(writer, object, "orthographic", json_boolean(camera->orthographic));
+    pel_write_number(writer, object, "height", camera->height_mm, 0);
+    pel_write_numbers(writer, object, "shift", 2, camera->shift);
+}
+
 // What the camera is to see: one instance, all visible ones, or simply all when none is visible.
 static void find_bounds(const struct pel_scene *scene, int fit, struct pel_bounds *bounds) {
     if (fit >= 0)

@@ -45,6 +45,8 @@ void pel_write_colour(struct pel_scene_writer *writer, json_t *object, const cha
 // The parts of a scene, each beside what reads it.
 void pel_scene_write_settings(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_camera(struct pel_scene_writer *writer, json_t *root);
+void pel_scene_write_viewpoint(struct pel_scene_writer *writer, json_t *object,
+                               const struct pel_camera *camera); // with nothing left out
 void pel_scene_write_lights(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_wall(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_stereo(struct pel_scene_writer *writer, json_t *root);

@@ -139,7 +139,8 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         part->memory_from_voxel = to_float4(shift, 0);
         part->atlas_from_memory = to_float4(origin, 0);
         part->buffer = slab->buffer;
-        part->offset = (u32)(slab->offset_bytes / pel_voxel_class_bytes(slab->class_index));
+        part->offset = (u32)(slab->offset_bytes /
+                             pel_brick_element_bytes(pel_voxel_class_bytes(slab->class_index)));
         if (volume->hypertexture && !fill_recipe(world, part, instance->volume))
             return false;
         part->voxels = 1 << slab->class_index;

@@ -138,6 +138,58 @@ static void test_copy(void **state) {
     pel_scene_destroy(copy);
 }
 
+// ---- Keyframes
+// -----------------------------------------------------------------------------------
+
+static void test_keyframes(void **state) {
+    (void)state;
+    struct pel_scene *scene = pel_scene_load(
+        test_write_scene("keyframes.json", "{" TEST_VOLUMES ", 'render': {'size': [32, 24]}}"),
+        NULL, 0);
+    assert_non_null(scene);
+    struct pel_keyframe keyframes[3];
+    for (int i = 0; i < 3; i++) {
+        keyframes[i] = (struct pel_keyframe){.time_s = i, .camera = scene->camera};
+        memcpy(keyframes[i].camera.eye, ((double[]){0, 100 + 100 * i, 0}), 3 * sizeof(double));
+        memset(keyframes[i].camera.target, 0, 3 * sizeof(double));
+        memcpy(keyframes[i].camera.up, ((double[]){0, 0, 1}), 3 * sizeof(double));
+    }
+    // What was changed before is what moves.
+    scene->instances[0].density = 0.25;
+    uint64_t serial = scene->volumes[0]->serial;
+    assert_true(pel_scene_set_keyframes(scene, keyframes, 3, 10));
+    assert_int_equal(scene->timeline.frame_count, 21);
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < 3; i++) {
+            if (!pel_scene_set_frame(scene, 10 * i))
+                fail_msg("%s", pel_error_message());
+            assert_float_equal(scene->camera.eye[1], 100 + 100 * i, 1e-9);
+        }
+        assert_float_equal(scene->instances[0].density, 0.25, 0);
+        if (pass > 0)
+            break;
+        // Nothing is loaded anew; and saved, it is the same.
+        assert_true(scene->volumes[0]->serial == serial);
+        const char *path = test_temporary_path("recorded.json");
+        assert_true(pel_scene_save(scene, path));
+        pel_scene_destroy(scene);
+        scene = pel_scene_load(path, NULL, 0);
+        assert_non_null(scene);
+    }
+    keyframes[2].time_s = 1;
+    assert_false(pel_scene_set_keyframes(scene, keyframes, 3, 10));
+    assert_int_equal(pel_error_code(), PEL_ERROR_ARGUMENT);
+    assert_false(pel_scene_set_keyframes(scene, keyframes, 2, 0));
+    assert_int_equal(scene->timeline.frame_count, 21);
+    assert_true(pel_scene_set_keyframes(scene, NULL, 0, 10));
+    assert_int_equal(scene->timeline.frame_count, 0);
+    assert_false(pel_scene_set_frame(scene, 0));
+    pel_scene_destroy(scene);
+}
+
+// ---- Undo
+// ----------------------------------------------------------------------------------------
+
 static double density(struct pel_history *history, struct pel_scene *(*go)(struct pel_history *)) {
     struct pel_scene *scene = go(history);
     if (!scene)
@@ -239,8 +291,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_add),     cmocka_unit_test(test_add_file),
         cmocka_unit_test(test_full),    cmocka_unit_test(test_remove_and_move),
-        cmocka_unit_test(test_copy),    cmocka_unit_test(test_undo),
-        cmocka_unit_test(test_merging), cmocka_unit_test(test_bounded),
+        cmocka_unit_test(test_copy),    cmocka_unit_test(test_keyframes),
+        cmocka_unit_test(test_undo),    cmocka_unit_test(test_merging),
+        cmocka_unit_test(test_bounded),
     };
     return cmocka_run_group_tests(tests, test_write_volumes, NULL);
 }
