@@ -115,10 +115,9 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
                           const struct pel_variant *variant) {
     int index = 0;
     bool good = pel_kernel_set_buffer(kernel, index++, renderer->world.buffer) &&
-                pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer);
-    index++; // light is set when there is an image
-    good = good && pel_kernel_set_buffer(kernel, index++, renderer->sample_counts);
-    index++; // the first tile is set for each batch
+                pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer) &&
+                pel_kernel_set_buffer(kernel, LIGHT_ARGUMENT + 1, renderer->sample_counts);
+    index = FIRST_TILE_ARGUMENT + 1; // what is between is set for each frame and each batch
     good = good && pel_kernel_set_buffer(kernel, index++, pel_occupancy_map(&renderer->occupancy));
     if (variant->supersampling) {
         index++; // the ray's number is set for each pass
@@ -332,8 +331,7 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
         pel_image_destroy(image);
         return NULL;
     }
-    const struct pel_buffer *light =
-        supersampling ? renderer->resolve.light : renderer->target.buffer;
+    struct pel_buffer *light = supersampling ? renderer->resolve.light : renderer->target.buffer;
     bool good = pel_kernel_set_buffer(kernel, LIGHT_ARGUMENT, light) &&
                 run_passes(renderer, kernel, scene, extent, supersampling, options, statistics);
     statistics->render_ms = lap_ms(&mark);

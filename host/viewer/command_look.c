@@ -140,6 +140,40 @@ static bool change_quality(struct pel_state *state, enum pel_action action) {
     }
 }
 
+void pel_command_add_clip(struct pel_state *state, enum pel_clip_kind kind) {
+    struct pel_scene *scene = state->scene;
+    struct pel_bounds bounds;
+    struct pel_view view;
+    if (scene->clip_count >= PEL_CLIP_MAX || !pel_scene_bounds(scene, &bounds) ||
+        !pel_state_view(state, 0, &view)) {
+        pel_state_say(state, "no more cuts: %d of %d are there", scene->clip_count, PEL_CLIP_MAX);
+        return;
+    }
+    struct pel_clip clip = {.kind = kind, .in_world = true};
+    for (int i = 0; i < 3; i++) {
+        clip.point[i] = (bounds.low[i] + bounds.high[i]) / 2;
+        clip.normal[i] = view.forward[i];
+        clip.size[i] = (bounds.high[i] - bounds.low[i]) / 2;
+    }
+    scene->clips[scene->clip_count++] = clip;
+    pel_state_change(state, "add a cut");
+}
+
+void pel_command_remove_clip(struct pel_state *state) {
+    if (state->scene->clip_count == 0)
+        return;
+    state->scene->clip_count--;
+    pel_state_change(state, "remove a cut");
+}
+
+static bool change_cuts(struct pel_state *state, enum pel_action action) {
+    if (action == PEL_ACTION_CLIP)
+        pel_command_add_clip(state, PEL_CLIP_PLANE);
+    else if (action == PEL_ACTION_UNCLIP)
+        pel_command_remove_clip(state);
+    return action == PEL_ACTION_CLIP || action == PEL_ACTION_UNCLIP;
+}
+
 static bool change_comparison(struct pel_state *state, enum pel_action action) {
     if (action != PEL_ACTION_COMPARE && action != PEL_ACTION_COMPARE_BACK)
         return false;
@@ -152,5 +186,6 @@ static bool change_comparison(struct pel_state *state, enum pel_action action) {
 
 bool pel_command_look(struct pel_state *state, enum pel_action action) {
     return change_volume_look(state, action) || change_eyes(state, action) ||
-           change_comparison(state, action) || change_quality(state, action);
+           change_comparison(state, action) || change_cuts(state, action) ||
+           change_quality(state, action);
 }

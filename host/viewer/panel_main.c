@@ -63,6 +63,7 @@ static void draw_column(struct pel_state *state) {
         {"Transfer function", true, pel_panel_transfer},
         {"Pose", false, pel_panel_pose},
         {"Compare", false, pel_panel_compare},
+        {"Clipping", false, pel_panel_clip},
         {"Look", false, pel_panel_look},
         {"Lights and shading", false, pel_panel_light},
         {"Stereo", false, pel_panel_stereo},
