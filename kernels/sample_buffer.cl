@@ -14,8 +14,17 @@
 #endif
 #define MEMORY_PARAMETERS                                                                          \
     __global const uchar *buffer0, __global const uchar *buffer1, __global const uchar *buffer2,   \
-        __global const uchar *buffer3 PAGES_PARAMETER
-#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 PAGES_ARGUMENT
+        __global const uchar *buffer3 PAGES_PARAMETER LIVE_PARAMETERS
+#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 PAGES_ARGUMENT LIVE_ARGUMENTS
+
+// Recipes, and the values of the volumes that they grow on.
+#if LIVE
+#define LIVE_PARAMETERS , __constant struct recipe *recipes, __global const float *objects
+#define LIVE_ARGUMENTS , recipes, objects
+#else
+#define LIVE_PARAMETERS
+#define LIVE_ARGUMENTS
+#endif
 
 // The eight voxels around a position: the index of the first, and the weights along the axes.
 struct cell {

@@ -76,7 +76,7 @@ struct part {
     i32 medium;                 // which of the media that are mixed, or MEDIUM_NONE
     i32 cuts;                   // index of the first of its clips: planes, boxes, cut-away boxes
     i32 plane_count, box_count, hole_count;
-    i32 pad;
+    i32 recipe; // 1 + number of what is worked out at every sample; 0: there are voxels
 };
 
 SHARED_ASSERT(sizeof(struct part) == 352, part_size);
