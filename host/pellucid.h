@@ -91,6 +91,9 @@ enum pel_voxel_type {
     PEL_VOXEL_RGBA8, // four bytes a voxel, straight alpha
 };
 
+// What a volume without voxels is worked out from: see pel_volume_hypertexture.
+struct pel_hypertexture;
+
 // A regular grid of voxels with its place in the world. Read its members freely; change them only
 // before the volume is first rendered.
 struct pel_volume {
@@ -104,9 +107,10 @@ struct pel_volume {
     char space[64];          // where the placement came from, such as "sform (scanner)"
     uint64_t serial;         // set by pel_volume_create and never reused: tells volumes apart
     bool labels;             // values are labels: interpolating them makes no sense
-    void *voxels;            // owned; i fastest, then j, then k; no padding. In PEL_VOXEL_F32
-                             // an absent voxel (NaN or Inf in the file) is NaN
-    int shares;              // how many hold it besides the first: see pel_volume_share
+    struct pel_hypertexture *hypertexture; // owned; in place of voxels, or NULL
+    void *voxels; // owned; i fastest, then j, then k; no padding. In PEL_VOXEL_F32
+                  // an absent voxel (NaN or Inf in the file) is NaN
+    int shares;   // how many hold it besides the first: see pel_volume_share
 };
 
 // How to read a file. Zero-initialise for the defaults.
@@ -645,6 +649,15 @@ struct pel_volume_source {
     const char *kind; // one of pel_generator_names, when there is no file
     struct pel_generate_options generate;
     double spacing[3]; // replaces the file's; 0 = does not
+    char *recipe;      // owned by the scene; of a hypertexture, as pel_renderer_bake takes it
+    struct {
+        int size;
+        enum pel_voxel_type type;
+        uint32_t seed;
+        double time;
+        bool live;
+    } hypertexture;
+    struct pel_volume *object; // that it grows on; shared
 };
 
 // A scene in memory. Instances are drawn in any order but listed in the user's; `over` follows it.
@@ -976,6 +989,13 @@ PEL_API const char *const *pel_recipe_presets(void);
 // MEMORY).
 PEL_API struct pel_volume *pel_renderer_bake(struct pel_renderer *renderer, const char *recipe,
                                              const struct pel_bake_options *options);
+
+// A hypertexture as a volume of a scene, without any voxels here. A renderer bakes it to the grid
+// that `options` describe before it first renders it or, when `live`, works it out at every sample,
+// and the grid only says where it lies and how far samples are apart. Densities 0..1 are its values
+// whatever the type, and 0..1 its statistics. `object` is shared. NULL as pel_renderer_bake fails.
+PEL_API struct pel_volume *
+pel_volume_hypertexture(const char *recipe, const struct pel_bake_options *options, bool live);
 
 // ---- Images ------------------------------------------------------------------------------------
 

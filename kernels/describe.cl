@@ -23,6 +23,7 @@ void describe_recipe(__global uint *out) {
     *out++ = OFFSET(struct recipe, time);
     *out++ = OFFSET(struct recipe, object_low);
     *out++ = OFFSET(struct recipe, object_span);
+    *out++ = OFFSET(struct recipe, object_offset);
 }
 
 // Writes the sizes and offsets in the order in which tests/kernel/layout.c lists them.
@@ -76,6 +77,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, number);
     *out++ = OFFSET(struct part, rank);
     *out++ = OFFSET(struct part, medium);
+    *out++ = OFFSET(struct part, recipe);
     *out++ = OFFSET(struct part, cuts);
     *out++ = OFFSET(struct part, plane_count);
     *out++ = OFFSET(struct part, box_count);

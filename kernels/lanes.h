@@ -62,6 +62,19 @@ typedef LANES_JOIN(int, LANES) mask;
 #endif
 #endif
 
+// LANE_NUMBERS(f): f(0), f(1) ... of every lane.
+#if LANES == 1
+#define LANE_NUMBERS(f) f(0)
+#elif LANES == 4
+#define LANE_NUMBERS(f) f(0), f(1), f(2), f(3)
+#elif LANES == 8
+#define LANE_NUMBERS(f) f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)
+#else
+#define LANE_NUMBERS(f)                                                                            \
+    f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12), f(13), f(14), \
+        f(15)
+#endif
+
 #define TO_INTEGER(v) LANES_JOIN(lanes_convert_int, LANES)(v)
 #define TO_REAL(v) LANES_JOIN(lanes_convert_float, LANES)(v)
 #define AS_REAL(v) LANES_JOIN(lanes_as_float, LANES)(v)
@@ -88,16 +101,14 @@ typedef LANES_JOIN(int, LANES) mask;
 // ALL_LANES(f): the vector of f(0), f(1) ... STORE_LANES(v, array): the way back, for loops over lanes.
 #if LANES == 1
 #define ALL_LANES(f) f(0)
-#elif LANES == 4
-#define ALL_LANES(f) ((float4)(f(0), f(1), f(2), f(3)))
+#else
+#define ALL_LANES(f) ((real)(LANE_NUMBERS(f)))
+#endif
+#if LANES == 4
 #define STORE_LANES(v, array) vstore4(v, 0, array)
 #elif LANES == 8
-#define ALL_LANES(f) ((float8)(f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)))
 #define STORE_LANES(v, array) vstore8(v, 0, array)
-#else
-#define ALL_LANES(f)                                                                               \
-    ((float16)(f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12),    \
-               f(13), f(14), f(15)))
+#elif LANES == 16
 #define STORE_LANES(v, array) vstore16(v, 0, array)
 #endif
 

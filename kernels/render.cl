@@ -78,7 +78,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         if (any_lane(alive & MASK(i >= active.until)))
             begin_span(&active, crossing, i, alive);
 #endif
-        mask seen = (mask)(0);
+        bool seen = false;
         struct mixture mixture = mix_begin();
         for (int a = 0; a < COUNTED(active.count); a++) {
             const int c = MIXING == MIXING_ORDERED ? a : LISTED(active.list, a);
@@ -115,8 +115,8 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #if MODELS
             if (part->model != MODEL_ABSORPTION) {
                 const struct spot spot = {part, cursor, c, i, present};
-                seen |= gather(world, table, cells, MEMORY_ARGUMENTS, &gathered, crossing, &light,
-                               &mixture, &sample, spot);
+                seen |= any_lane(gather(world, table, cells, MEMORY_ARGUMENTS, &gathered, crossing,
+                                        &light, &mixture, &sample, spot));
                 continue;
             }
 #endif
@@ -135,7 +135,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
                 continue;
             }
-            seen |= visible;
+            seen = true;
 
             real r, g, b;
             entry_colour(table, &entry, &r, &g, &b);
@@ -159,11 +159,11 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         }
 
 #if MIXING == MIXING_ORDERED
-        if (any_lane(seen))
+        if (seen)
             alive &= MASK(light.a <= world->termination);
 #else
         i -= alive; // one on, where the ray still runs
-        if (any_lane(seen)) {
+        if (seen) {
             mix_end(world, &mixture, layer);
 #if MODELS
             gathered_join(&gathered, &light);

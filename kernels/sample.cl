@@ -8,6 +8,7 @@
 
 #include "lanes.h"
 #include "shared/brick.h"
+#include "shared/recipe.h"
 #include "shared/variant.h"
 #include "shared/world.h"
 
@@ -19,6 +20,9 @@
 #endif
 #ifndef VOXELS
 #define VOXELS VOXELS_U8 // which classes of voxels occur
+#endif
+#ifndef LIVE
+#define LIVE 0 // 1: some volume is a recipe, which is worked out at every sample
 #endif
 #ifndef FILTERS
 #define FILTERS FILTERS_LINEAR // which filters occur
@@ -54,9 +58,16 @@ INLINE real mix_lanes(real a, real b, real weight) {
 #if FILTERS & FILTERS_CUBIC
 #include "cubic.cl"
 #endif
+#if LIVE
+#include "live.cl"
+#endif
 
 INLINE struct sample sample_part(MEMORY_PARAMETERS, __constant struct part *part, real x, real y,
                                  real z) {
+#if LIVE
+    if (part->recipe != 0)
+        return sample_live(MEMORY_ARGUMENTS, part, x, y, z);
+#endif
 #if FILTERS & FILTERS_CUBIC
     if (IS_CUBIC(part))
         return sample_cubic(MEMORY_ARGUMENTS, part, x, y, z, -1);

@@ -14,13 +14,17 @@
 #endif
 #define MEMORY_PARAMETERS                                                                          \
     __global const uchar *buffer0, __global const uchar *buffer1, __global const uchar *buffer2,   \
-        __global const uchar *buffer3 PAGES_PARAMETER
-#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 PAGES_ARGUMENT
+        __global const uchar *buffer3 PAGES_PARAMETER LIVE_PARAMETERS
+#define MEMORY_ARGUMENTS buffer0, buffer1, buffer2, buffer3 PAGES_ARGUMENT LIVE_ARGUMENTS
 
-// Two neighbouring voxels of one byte, wherever they begin.
-struct __attribute__((packed)) byte_pair {
-    ushort both;
-};
+// Recipes, and the values of the volumes that they grow on.
+#if LIVE
+#define LIVE_PARAMETERS , __constant struct recipe *recipes, __global const float *objects
+#define LIVE_ARGUMENTS , recipes, objects
+#else
+#define LIVE_PARAMETERS
+#define LIVE_ARGUMENTS
+#endif
 
 // The eight voxels around a position: the index of the first, and the weights along the axes.
 struct cell {
@@ -35,38 +39,97 @@ INLINE integer voxel_index(__constant struct part *part, integer x, integer y,
                            integer z PAGES_PARAMETER) {
     const integer inside = BRICK_SIDE - 1;
     integer brick = (z >> BRICK_BITS) * part->brick_slice +
-                          (y >> BRICK_BITS) * part->brick_row + (x >> BRICK_BITS);
+                    (y >> BRICK_BITS) * part->brick_row + (x >> BRICK_BITS);
 #if POOL
     brick += (int)part->ranges;
     brick = GATHER(int, LOAD_PAGE, brick);
 #endif
     return brick * BRICK_VOXELS + (z & inside) * BRICK_SLICE + (y & inside) * BRICK_ROW +
-           (x & inside);
+           (x & inside) + BRICK_LEAD;
 }
 
-#define LOAD_PAIR(at) ((__global const struct byte_pair *)(row + (at)))->both
 #define LOAD(at) row[at]
 #define LOAD_NEXT(at) row[(at) + 1]
 
-#if VOXELS & VOXELS_U8
-INLINE real row_u8(__global const uchar *row, integer offset, real x) {
+#if VOXELS & (VOXELS_U8 | VOXELS_U16)
+// Indices of each lane as plain numbers. They go through memory, because two dozen instructions would take them out of
+// a vector register one by one.
+struct indices {
+    uint of[LANES];
+};
+
+INLINE struct indices spread_indices(integer v) {
+#define INDEX(lane) memory[lane]
+    volatile integer kept = v;
+    const volatile uint *memory = (const volatile uint *)&kept;
+    const struct indices at = {{LANE_NUMBERS(INDEX)}};
+    return at;
+}
+
+// Words that begin at any element.
+struct __attribute__((packed, aligned(2))) loose_word {
+    int word;
+};
+struct __attribute__((packed, aligned(2))) loose_words {
+    int4 words;
+};
+
+// The word of each lane that begins at its element of `row`. With a packet each is loaded among four such that it comes
+// to lie in its place: a load and a blend, where a list of words becomes a slow gather instruction.
+INLINE integer load_words(__global const ushort *row, const struct indices *at) {
+#define WORDS(lane, place)                                                                         \
+    ((__global const struct loose_words *)(row + at->of[lane] - 2 * (place)))->words
+#define FOUR_WORDS(lane)                                                                           \
+    (int4)(WORDS(lane, 0).x, WORDS(lane + 1, 1).y, WORDS(lane + 2, 2).z, WORDS(lane + 3, 3).w)
 #if LANES == 1
-    return mix_lanes(row[offset], row[offset + 1], x);
+    return ((__global const struct loose_word *)(row + at->of[0]))->word;
+#elif LANES == 4
+    return FOUR_WORDS(0);
+#elif LANES == 8
+    return (int8)(FOUR_WORDS(0), FOUR_WORDS(4));
 #else
-    const integer pair = TO_INTEGER(GATHER(ushort, LOAD_PAIR, offset));
-    return mix_lanes(TO_REAL(pair & 255), TO_REAL(pair >> 8), x);
+    return (int16)(FOUR_WORDS(0), FOUR_WORDS(4), FOUR_WORDS(8), FOUR_WORDS(12));
 #endif
 }
 
-INLINE real nearest_u8(__global const uchar *row, integer offset) {
-    return TO_REAL(GATHER(uchar, LOAD, offset));
+INLINE real bits_of(integer word, int first, int bits) {
+    return TO_REAL((word >> first) & bits);
+}
+#endif
+
+#if VOXELS & VOXELS_U8
+// Interpolates over x and y. A word holds voxels (0,0), (0,1), (1,0) and (1,1).
+INLINE real face_u8(__global const ushort *row, const struct indices *at, const struct cell *cell) {
+    const integer word = load_words(row, at);
+    return mix_lanes(mix_lanes(bits_of(word, 0, 255), bits_of(word, 8, 255), cell->y),
+                     mix_lanes(bits_of(word, 16, 255), bits_of(word, 24, 255), cell->y), cell->x);
+}
+
+INLINE real linear_u8(__global const ushort *voxels, const struct cell *cell) {
+    const struct indices at = spread_indices(cell->offset);
+    return mix_lanes(face_u8(voxels, &at, cell), face_u8(voxels + BRICK_SLICE, &at, cell), cell->z);
+}
+
+INLINE real nearest_u8(__global const ushort *row, integer offset) {
+    return TO_REAL(TO_INTEGER(GATHER(ushort, LOAD, offset)) & 255);
 }
 #endif
 
 #if VOXELS & VOXELS_U16
-INLINE real row_u16(__global const ushort *row, integer offset, real x) {
-    return mix_lanes(TO_REAL(GATHER(ushort, LOAD, offset)),
-                     TO_REAL(GATHER(ushort, LOAD_NEXT, offset)), x);
+// Interpolates over x. A word holds voxels 0 and 1.
+INLINE real row_u16(__global const ushort *row, const struct indices *at, real x) {
+    const integer word = load_words(row, at);
+    return mix_lanes(bits_of(word, 0, 65535), bits_of(word, 16, 65535), x);
+}
+
+INLINE real linear_u16(__global const ushort *voxels, const struct cell *cell) {
+    const struct indices at = spread_indices(cell->offset);
+    __global const ushort *next = voxels + BRICK_SLICE;
+    return mix_lanes(mix_lanes(row_u16(voxels, &at, cell->x),
+                               row_u16(voxels + BRICK_ROW, &at, cell->x), cell->y),
+                     mix_lanes(row_u16(next, &at, cell->x),
+                               row_u16(next + BRICK_ROW, &at, cell->x), cell->y),
+                     cell->z);
 }
 
 INLINE real nearest_u16(__global const ushort *row, integer offset) {
@@ -82,16 +145,16 @@ INLINE real row_f32(__global const float *row, integer offset, real x) {
 INLINE real nearest_f32(__global const float *row, integer offset) {
     return GATHER(float, LOAD, offset);
 }
-#endif
 
-// Trilinear interpolation over the rows of a cell, for one class of voxels.
-#define TRILINEAR(class, voxels, cell)                                                             \
-    mix_lanes(mix_lanes(row_##class(voxels, (cell).offset, (cell).x),                              \
-                        row_##class(voxels + BRICK_ROW, (cell).offset, (cell).x), (cell).y),      \
-              mix_lanes(row_##class(voxels + BRICK_SLICE, (cell).offset, (cell).x),               \
-                        row_##class(voxels + BRICK_SLICE + BRICK_ROW, (cell).offset, (cell).x),  \
-                        (cell).y),                                                                 \
-              (cell).z)
+INLINE real linear_f32(__global const float *voxels, const struct cell *cell) {
+    const integer at = cell->offset;
+    __global const float *next = voxels + BRICK_SLICE;
+    return mix_lanes(
+        mix_lanes(row_f32(voxels, at, cell->x), row_f32(voxels + BRICK_ROW, at, cell->x), cell->y),
+        mix_lanes(row_f32(next, at, cell->x), row_f32(next + BRICK_ROW, at, cell->x), cell->y),
+        cell->z);
+}
+#endif
 
 #if VOXELS & VOXELS_RGBA
 INLINE real channel(integer voxel, int shift) {
@@ -130,10 +193,9 @@ INLINE void sample_rgba(struct sample *s, __global const int *voxels, const stru
 
 INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
                                 real x, real y, real z) {
-    const real half_voxel = (real)(nearest ? 0.5f : 0.0f);
     // Positions are positive, so truncation is floor.
-    const integer ix = TO_INTEGER(x + half_voxel), iy = TO_INTEGER(y + half_voxel),
-                  iz = TO_INTEGER(z + half_voxel);
+    const integer ix = TO_INTEGER(nearest ? x + 0.5f : x), iy = TO_INTEGER(nearest ? y + 0.5f : y),
+                  iz = TO_INTEGER(nearest ? z + 0.5f : z);
     const struct cell cell = {.offset = voxel_index(part, ix, iy, iz PAGES_ARGUMENT),
                               .x = x - TO_REAL(ix),
                               .y = y - TO_REAL(iy),
@@ -147,20 +209,20 @@ INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part,
     s.raw = (real)(0.0f);
 #if VOXELS & VOXELS_U8
     if (IS_CLASS(part, VOXELS_U8)) {
-        __global const uchar *voxels = buffer + part->offset;
-        s.raw = nearest ? nearest_u8(voxels, cell.offset) : TRILINEAR(u8, voxels, cell);
+        __global const ushort *voxels = (__global const ushort *)buffer + part->offset;
+        s.raw = nearest ? nearest_u8(voxels, cell.offset) : linear_u8(voxels, &cell);
     }
 #endif
 #if VOXELS & VOXELS_U16
     if (IS_CLASS(part, VOXELS_U16)) {
         __global const ushort *voxels = (__global const ushort *)buffer + part->offset;
-        s.raw = nearest ? nearest_u16(voxels, cell.offset) : TRILINEAR(u16, voxels, cell);
+        s.raw = nearest ? nearest_u16(voxels, cell.offset) : linear_u16(voxels, &cell);
     }
 #endif
 #if VOXELS & VOXELS_F32
     if (IS_CLASS(part, VOXELS_F32)) {
         __global const float *voxels = (__global const float *)buffer + part->offset;
-        s.raw = nearest ? nearest_f32(voxels, cell.offset) : TRILINEAR(f32, voxels, cell);
+        s.raw = nearest ? nearest_f32(voxels, cell.offset) : linear_f32(voxels, &cell);
     }
 #endif
 #if VOXELS & VOXELS_RGBA

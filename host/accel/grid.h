@@ -16,6 +16,9 @@ struct pel_grid {
     float (*range)[2]; // owned; least and greatest value of each cell; least > greatest: all absent
 };
 
+// Ends of a cell's range that stand for any value.
+#define PEL_GRID_ENDLESS 1e30F
+
 // The number of cells of `side` voxels over `voxels` stored voxels along one axis.
 size_t pel_grid_cells(size_t voxels, size_t side);
 

@@ -36,6 +36,12 @@ void pel_buffer_destroy(struct pel_buffer *buffer);
 // Its size; 0 for NULL.
 size_t pel_buffer_bytes(const struct pel_buffer *buffer);
 
+// A buffer that is the host's own memory, lent to the device until the buffer is destroyed. After
+// the kernels that write it, giving it back waits for them and lets the host see what they wrote.
+struct pel_buffer *pel_buffer_lend(struct pel_device *device, void *memory, size_t bytes,
+                                   const char *purpose);
+bool pel_buffer_give_back(struct pel_buffer *buffer);
+
 // Both wait until the bytes have been copied.
 bool pel_buffer_write(struct pel_buffer *buffer, size_t offset, size_t bytes, const void *data);
 bool pel_buffer_read(struct pel_buffer *buffer, size_t offset, size_t bytes, void *data);

@@ -35,7 +35,7 @@ static bool layer_init(struct layer *layer, const struct pel_volume *volume,
     for (int c = 0; c < 3; c++)
         layer->bricks[c] = pel_brick_count(layer->dims[c]);
     layer->voxel_bytes = pel_voxel_class_bytes(slab->class_index);
-    layer->brick_bytes = BRICK_VOXELS * layer->voxel_bytes;
+    layer->brick_bytes = BRICK_VOXELS * pel_brick_element_bytes(layer->voxel_bytes);
     layer->slice_bytes = layer->dims[0] * layer->dims[1] * layer->voxel_bytes;
     size_t bytes;
     if (!pel_size_multiply(&bytes, 3,
@@ -134,7 +134,7 @@ static bool shelf_grow(struct pel_pool *pool, struct pel_device *device,
                        const struct pel_layout *layout, const struct pel_layout_limits *limits,
                        int class, size_t needed) {
     struct pel_shelf *shelf = &pool->shelves[class];
-    size_t brick_bytes = BRICK_VOXELS * pel_voxel_class_bytes(class);
+    size_t brick_bytes = BRICK_VOXELS * pel_brick_element_bytes(pel_voxel_class_bytes(class));
     size_t most = limits->max_allocation_bytes / brick_bytes;
     if (most > places_most)
         most = places_most;
@@ -215,7 +215,7 @@ static void fill_brick(char *brick, int class, float value) {
         uint8_t rgba[4] = {0, 0, 0, (uint8_t)value};
         switch (class) {
         case 0:
-            brick[i] = (char)(uint8_t)value;
+            brick[2 * i] = brick[2 * i + 1] = (char)(uint8_t)value;
             break;
         case 1:
             memcpy(brick + 2 * i, &word, sizeof word);

@@ -1,8 +1,7 @@
 // renderer.c - the frame loop.
 //
 // A frame is: plan where voxels lie, make the world's bytes, send what changed, choose the kernel,
-// and run it over the picture's tiles in batches, short enough for a watchdog and for a progress
-// display. What is on the device stays there, so the next frame sends only what differs from it.
+// and run it over the tiles in short batches. What is on the device stays for the next frame.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +10,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "device/device.h"
-#include "render/bake.h"
+#include "render/bakery.h"
 #include "render/debug.h"
 #include "render/frame.h"
 #include "render/kernel_cache.h"
@@ -20,13 +19,13 @@
 #include "render/probe.h"
 #include "render/residency.h"
 #include "render/resolve.h"
+#include "render/target.h"
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
 #include "world/model.h"
 
-// A batch of tiles should take about this long unless the caller says otherwise.
-static const double batch_default_ms = 150;
+static const double batch_default_ms = 150; // of a batch of tiles, unless the caller says otherwise
 
 struct pel_renderer {
     struct pel_device *device;
@@ -36,9 +35,10 @@ struct pel_renderer {
     struct pel_mirror world, tables;
     struct pel_occupancy occupancy;
     struct pel_resolve resolve;
-    struct pel_kernel *bake; // NULL until the first hypertexture
-    struct pel_buffer *picture, *sample_counts;
-    size_t picture_bytes, sample_counts_bytes;
+    struct pel_bakery bakery;
+    struct pel_target target;
+    struct pel_buffer *sample_counts;
+    size_t sample_counts_bytes;
     double tiles_per_ms; // as the last frame ran; 0 = unknown
     float *tile_ms;      // what each tile takes, while a debug view asks for it
 };
@@ -107,20 +107,17 @@ static bool check_memory(const struct pel_layout *layout, const struct pel_layou
 }
 
 // Where the kernel finds what changes from launch to launch.
-enum { FIRST_TILE_ARGUMENT = 4, RAY_ARGUMENT = 6 };
+enum { LIGHT_ARGUMENT = 2, FIRST_TILE_ARGUMENT = 4, RAY_ARGUMENT = 6 };
 
-// Binds everything but the first tile and the ray's number, in the order of the kernel's
-// parameters. A kernel has an atlas for each class in `voxels` only.
+// Binds everything but where light goes, the first tile, and the ray's number, in the order of the
+// kernel's parameters. A kernel has an atlas for each class in `voxels` only.
 static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel,
                           const struct pel_variant *variant) {
-    const struct pel_buffer *light =
-        variant->supersampling ? renderer->resolve.light : renderer->picture;
     int index = 0;
     bool good = pel_kernel_set_buffer(kernel, index++, renderer->world.buffer) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer) &&
-                pel_kernel_set_buffer(kernel, index++, light) &&
-                pel_kernel_set_buffer(kernel, index++, renderer->sample_counts);
-    index++; // the first tile is set for each batch
+                pel_kernel_set_buffer(kernel, LIGHT_ARGUMENT + 1, renderer->sample_counts);
+    index = FIRST_TILE_ARGUMENT + 1; // what is between is set for each frame and each batch
     good = good && pel_kernel_set_buffer(kernel, index++, pel_occupancy_map(&renderer->occupancy));
     if (variant->supersampling) {
         index++; // the ray's number is set for each pass
@@ -206,8 +203,8 @@ static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
     for (int ray = 0; ray < n * n; ray++, pass.number++) {
         if (!pel_kernel_set_u32(kernel, RAY_ARGUMENT, (uint32_t)ray) ||
             !run_tiles(renderer, kernel, extent, options, pass) ||
-            !pel_resolve_add(&renderer->resolve, renderer->world.buffer, renderer->picture, pixels,
-                             ray))
+            !pel_resolve_add(&renderer->resolve, renderer->world.buffer, renderer->target.buffer,
+                             pixels, ray))
             return false;
         slowest = fmin(slowest, renderer->tiles_per_ms);
     }
@@ -265,14 +262,12 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     *extent = picture_extent(&scene->render, lanes, choose_group(renderer, kernel));
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     size_t packets = (extent->tiles + extent->tiles_per_group) * extent->packets_per_tile;
-    if (!pel_residency_update(&renderer->residency, scene, layout) ||
+    if (!pel_residency_update(&renderer->residency, scene, layout, world) ||
         !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
                            sizeof world->bytes.camera, "the scene", NULL) ||
         !pel_mirror_update(&renderer->tables, device, world->tables,
                            world->table_words * sizeof *world->tables, 0, "transfer functions",
                            NULL) ||
-        !grow_buffer(&renderer->picture, &renderer->picture_bytes, pixels * sizeof(float4), device,
-                     "the picture") ||
         (world->supersampling &&
          !pel_resolve_prepare(&renderer->resolve, device, kernel, pixels)) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
@@ -331,12 +326,16 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
                              bool supersampling, const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = now_ms();
-    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
-    bool good = run_passes(renderer, kernel, scene, extent, supersampling, options, statistics);
+    struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
+    if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
+        pel_image_destroy(image);
+        return NULL;
+    }
+    struct pel_buffer *light = supersampling ? renderer->resolve.light : renderer->target.buffer;
+    bool good = pel_kernel_set_buffer(kernel, LIGHT_ARGUMENT, light) &&
+                run_passes(renderer, kernel, scene, extent, supersampling, options, statistics);
     statistics->render_ms = lap_ms(&mark);
-    struct pel_image *image =
-        good ? pel_image_create(scene->render.width, scene->render.height) : NULL;
-    good = image && pel_buffer_read(renderer->picture, 0, pixels * sizeof(float4), image->rgba) &&
+    good = pel_target_end(&renderer->target, image, good) &&
            (scene->render.debug == PEL_DEBUG_NONE ||
             paint(image, renderer, scene->render.debug, options, statistics));
     free(renderer->tile_ms);
@@ -399,17 +398,19 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     uint64_t uploaded_before = pel_device_uploaded_bytes(renderer->device);
     struct pel_layout layout;
     struct pel_world world;
-    if (!plan(renderer, scene, &layout, &world, statistics))
+    struct pel_scene shown;
+    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown) ||
+        !plan(renderer, &shown, &layout, &world, statistics))
         return NULL;
-    struct pel_image *image;
+    struct pel_image *image = NULL;
     if (world.bytes.part_count == 0) {
         image = render_background(&world);
     } else {
         struct extent extent;
-        struct pel_kernel *kernel = prepare(renderer, scene, &layout, &world, &extent, statistics);
-        image =
-            kernel ? run(renderer, kernel, scene, &extent, world.supersampling, options, statistics)
-                   : NULL;
+        struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &extent, statistics);
+        if (kernel)
+            image =
+                run(renderer, kernel, &shown, &extent, world.supersampling, options, statistics);
     }
     pel_world_finish(&world);
     const struct pel_device_info *info = pel_device_describe(renderer->device);
@@ -426,8 +427,9 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
     if (x < 0 || y < 0 || x >= scene->render.width || y >= scene->render.height)
         return pel_fail(PEL_ERROR_ARGUMENT, "pixel %d,%d is outside the picture of %d x %d", x, y,
                         scene->render.width, scene->render.height);
-    // The copy borrows everything the scene owns.
-    struct pel_scene seen = *scene;
+    struct pel_scene seen;
+    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen))
+        return false;
     seen.render.debug = PEL_DEBUG_NONE;
     seen.render.supersampling.n = 0;
     seen.render.supersampling.pattern = PEL_PATTERN_REGULAR;
@@ -460,8 +462,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
 
 struct pel_volume *pel_renderer_bake(struct pel_renderer *renderer, const char *recipe,
                                      const struct pel_bake_options *options) {
-    static const struct pel_bake_options defaults;
-    return pel_bake(renderer->device, &renderer->bake, recipe, options ? options : &defaults);
+    return pel_bake(renderer->device, &renderer->bakery.kernel, recipe, options);
 }
 
 struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *options) {
@@ -490,10 +491,10 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_mirror_finish(&renderer->tables);
     pel_occupancy_finish(&renderer->occupancy);
     pel_resolve_finish(&renderer->resolve);
-    pel_buffer_destroy(renderer->picture);
+    pel_target_finish(&renderer->target);
     pel_buffer_destroy(renderer->sample_counts);
     pel_kernel_cache_finish(&renderer->kernels);
-    pel_kernel_destroy(renderer->bake);
+    pel_bakery_finish(&renderer->bakery);
     pel_device_close(renderer->device);
     free(renderer);
 }

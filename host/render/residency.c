@@ -93,7 +93,8 @@ static bool shipment_init(struct shipment *shipment, const struct pel_volume *vo
     if (bricks) {
         if (!pel_size_multiply(&shipment->layer_bytes, 4,
                                (size_t[]){pel_brick_count(dims[0]), pel_brick_count(dims[1]),
-                                          BRICK_VOXELS, shipment->voxel_bytes})) {
+                                          BRICK_VOXELS,
+                                          pel_brick_element_bytes(shipment->voxel_bytes)})) {
             shipment_finish(shipment);
             return false;
         }
@@ -137,11 +138,33 @@ static bool send_slices(struct pel_residency *residency, struct shipment *shipme
     return pel_texture_write(residency->atlases[slab->class_index], origin, dims, shipment->slices);
 }
 
+// Of a volume that is worked out at every sample nobody knows where something is visible, so each
+// cell may have any value.
+static bool send_endless_ranges(struct pel_residency *residency, const struct pel_volume *volume,
+                                const struct pel_slab *slab) {
+    struct pel_grid grid;
+    size_t dims[3];
+    pel_slab_dims(slab, volume, dims);
+    if (!pel_grid_init(&grid, dims, CELL_VOXELS, 0))
+        return false;
+    size_t cells = grid.cells[0] * grid.cells[1] * grid.cells[2];
+    for (size_t i = 0; i < cells; i++) {
+        grid.range[i][0] = -PEL_GRID_ENDLESS;
+        grid.range[i][1] = PEL_GRID_ENDLESS;
+    }
+    bool good = pel_buffer_write(residency->ranges, slab->ranges * sizeof *grid.range,
+                                 cells * sizeof *grid.range, grid.range);
+    pel_grid_finish(&grid);
+    return good;
+}
+
 // Packs and sends a slab, and on the way finds the range of values in each of its cells.
 static bool send_slab(struct pel_residency *residency, const struct pel_volume *volume,
                       const struct pel_slab *slab) {
     bool bricks = residency->layout.reader == PEL_READER_BUFFER;
     struct shipment shipment;
+    if (volume->hypertexture)
+        return send_endless_ranges(residency, volume, slab);
     if (!shipment_init(&shipment, volume, slab, bricks))
         return false;
     struct pel_grid grid;
@@ -164,8 +187,8 @@ static bool send_slab(struct pel_residency *residency, const struct pel_volume *
     return good;
 }
 
-bool pel_residency_update(struct pel_residency *residency, const struct pel_scene *scene,
-                          const struct pel_layout *layout) {
+static bool send_voxels(struct pel_residency *residency, const struct pel_scene *scene,
+                        const struct pel_layout *layout) {
     if (memcmp(&residency->layout, layout, sizeof *layout) == 0)
         return true;
     pel_residency_finish(residency);
@@ -187,6 +210,13 @@ bool pel_residency_update(struct pel_residency *residency, const struct pel_scen
     return good;
 }
 
+bool pel_residency_update(struct pel_residency *residency, const struct pel_scene *scene,
+                          const struct pel_layout *layout, const struct pel_world *world) {
+    residency->has_live = world->live_count > 0;
+    return send_voxels(residency, scene, layout) &&
+           pel_live_update(&residency->live, residency->device, scene, world);
+}
+
 bool pel_residency_fill(struct pel_residency *residency, const struct pel_scene *scene,
                         const struct pel_layout_limits *limits, const uint8_t *active) {
     return pel_pool_fill(&residency->pool, residency->device, scene, &residency->layout, limits,
@@ -205,8 +235,12 @@ bool pel_residency_bind(const struct pel_residency *residency, struct pel_kernel
             good = pel_kernel_set_buffer(kernel, index++,
                                          residency->layout.pool ? shelf : residency->buffers[b]);
         }
-        return good &&
-               (!residency->layout.pool || pel_kernel_set_buffer(kernel, index, pool->pages));
+        if (good && residency->layout.pool)
+            good = pel_kernel_set_buffer(kernel, index++, pool->pages);
+        if (good && residency->has_live)
+            good = pel_kernel_set_buffer(kernel, index, residency->live.recipes.buffer) &&
+                   pel_kernel_set_buffer(kernel, index + 1, residency->live.objects);
+        return good;
     }
     uint32_t atlas_count = 0;
     for (int class = 0; good && class < VOXEL_CLASS_COUNT; class ++) {
@@ -228,6 +262,7 @@ void pel_residency_finish(struct pel_residency *residency) {
         residency->atlases[class] = NULL;
     }
     pel_pool_finish(&residency->pool);
+    pel_live_finish(&residency->live);
     pel_buffer_destroy(residency->ranges);
     residency->ranges = NULL;
     memset(&residency->layout, 0, sizeof residency->layout);

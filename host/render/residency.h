@@ -3,6 +3,7 @@
 #define PEL_RENDER_RESIDENCY_H
 
 #include "device/device.h"
+#include "render/live.h"
 #include "render/pool.h"
 #include "world/layout.h"
 
@@ -11,6 +12,8 @@ struct pel_residency {
     struct pel_layout layout;
     struct pel_buffer *buffers[VOXEL_BUFFERS];
     struct pel_texture *atlases[VOXEL_CLASS_COUNT];
+    struct pel_live live;
+    bool has_live;             // this frame
     struct pel_buffer *ranges; // two floats for each cell of each slab
     struct pel_pool pool;      // with a pool, which then has the voxels
 };
@@ -19,10 +22,11 @@ struct pel_residency {
 struct pel_layout_limits pel_residency_limits(const struct pel_device *device,
                                               uint64_t max_allocation_bytes);
 
-// Brings the scene's volumes to where `layout` puts them. Nothing is sent when they lie there
+// Brings the scene's volumes to where `layout` puts them, and recipes that are worked out at every
+// sample beside them. Nothing is sent when they lie there
 // already. On failure (DEVICE, MEMORY) nothing stays on the device.
 bool pel_residency_update(struct pel_residency *residency, const struct pel_scene *scene,
-                          const struct pel_layout *layout);
+                          const struct pel_layout *layout, const struct pel_world *world);
 
 // Gives a kernel its MEMORY_PARAMETERS from parameter `index` on. `voxels` are the classes
 // (VOXELS_*) it was built for.

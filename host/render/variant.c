@@ -43,6 +43,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .table_linear = world->table_linear,
         .supersampling = world->supersampling,
         .jitter = world->jitter,
+        .live = world->live_count > 0,
         .probe = world->probe,
         .debug = world->bytes.debug != DEBUG_NONE && world->bytes.debug != DEBUG_TIME,
         .table_global =
@@ -55,10 +56,10 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
              "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d "
-             "-DGROUP_ROWS=%d -DPOOL=%d -DCLIP=%d -DSTYLE=%d",
+             "-DGROUP_ROWS=%d -DPOOL=%d -DCLIP=%d -DSTYLE=%d -DLIVE=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
              variant->jitter, variant->debug, variant->probe, variant->models, variant->group_rows,
-             variant->pool, variant->clip, variant->style);
+             variant->pool, variant->clip, variant->style, variant->live);
 }

@@ -27,9 +27,13 @@ void pel_command_set_pose(struct pel_state *state, const struct pel_pose *pose);
 void pel_command_load_pose(struct pel_state *state, const char *path);
 void pel_command_save_pose(struct pel_state *state, const char *path);
 
-// Makes the range of values that a transfer function tells apart wider by a factor, about its
-// middle, and moves it up.
-void pel_command_level(struct pel_transfer *transfer, double wider, double up);
+// Cuts all volumes: by a plane through their middle that faces the viewer, or by a box around the
+// middle half. And takes the last cut back.
+void pel_command_add_clip(struct pel_state *state, enum pel_clip_kind kind);
+void pel_command_remove_clip(struct pel_state *state);
+
+// The selected volume takes a preset, the number counting pel_transfer_presets.
+void pel_command_preset(struct pel_state *state, int preset);
 
 // Adds a volume, or takes a scene in place of the present one; failure is a message in the window.
 void pel_command_open(struct pel_state *state, const char *path);

@@ -5,6 +5,8 @@
 
 #include "viewer/command.h"
 #include "viewer/names.h"
+#include "viewer/show.h"
+#include "viewer/transfer_edit.h"
 
 // The choice after (or before) this one, round and round.
 static int next(int choice, int by, const char *const *names) {
@@ -12,31 +14,23 @@ static int next(int choice, int by, const char *const *names) {
     return (choice + by + count) % count;
 }
 
-static void change_preset(struct pel_state *state, int by) {
+void pel_command_preset(struct pel_state *state, int preset) {
     struct pel_instance *instance = &state->scene->instances[state->selected];
-    const char *const *names = pel_transfer_presets();
-    state->preset = next(state->preset, by, names);
-    struct pel_transfer *transfer = pel_transfer_preset(names[state->preset]);
+    const struct pel_statistics *statistics = &state->scene->statistics[instance->volume];
+    const char *name = pel_transfer_presets()[preset];
+    state->preset = preset;
+    double low, high;
+    pel_transfer_window(instance->transfer, &low, &high);
+    struct pel_transfer *transfer =
+        pel_transfer_fit_preset(name, statistics, low, high, instance->transfer);
     if (!transfer) {
         pel_state_say(state, "%s", pel_error_message());
         return;
     }
-    pel_transfer_resolve(transfer, &state->scene->statistics[instance->volume]);
     pel_transfer_destroy(instance->transfer);
     instance->transfer = transfer;
-    pel_state_say(state, "%s: %s", instance->name, names[state->preset]);
+    pel_state_say(state, "%s: %s", instance->name, name);
     pel_state_change(state, "transfer function");
-}
-
-void pel_command_level(struct pel_transfer *transfer, double wider, double up) {
-    double low = transfer->opacities[0].value;
-    double high = transfer->opacities[transfer->opacity_count - 1].value;
-    double middle = (low + high) / 2;
-    for (int i = 0; i < transfer->opacity_count; i++)
-        transfer->opacities[i].value =
-            middle + up + wider * (transfer->opacities[i].value - middle);
-    for (int i = 0; i < transfer->colour_count; i++)
-        transfer->colours[i].value = middle + up + wider * (transfer->colours[i].value - middle);
 }
 
 static void change_filter(struct pel_state *state) {
@@ -58,7 +52,8 @@ static bool change_volume_look(struct pel_state *state, enum pel_action action) 
     switch (action) {
     case PEL_ACTION_PRESET:
     case PEL_ACTION_PRESET_BACK:
-        change_preset(state, action == PEL_ACTION_PRESET ? 1 : -1);
+        pel_command_preset(state, next(state->preset, action == PEL_ACTION_PRESET ? 1 : -1,
+                                       pel_transfer_presets()));
         return true;
     case PEL_ACTION_FILTER:
         change_filter(state);
@@ -145,7 +140,52 @@ static bool change_quality(struct pel_state *state, enum pel_action action) {
     }
 }
 
+void pel_command_add_clip(struct pel_state *state, enum pel_clip_kind kind) {
+    struct pel_scene *scene = state->scene;
+    struct pel_bounds bounds;
+    struct pel_view view;
+    if (scene->clip_count >= PEL_CLIP_MAX || !pel_scene_bounds(scene, &bounds) ||
+        !pel_state_view(state, 0, &view)) {
+        pel_state_say(state, "no more cuts: %d of %d are there", scene->clip_count, PEL_CLIP_MAX);
+        return;
+    }
+    struct pel_clip clip = {.kind = kind, .in_world = true};
+    for (int i = 0; i < 3; i++) {
+        clip.point[i] = (bounds.low[i] + bounds.high[i]) / 2;
+        clip.normal[i] = view.forward[i];
+        clip.size[i] = (bounds.high[i] - bounds.low[i]) / 2;
+    }
+    scene->clips[scene->clip_count++] = clip;
+    pel_state_change(state, "add a cut");
+}
+
+void pel_command_remove_clip(struct pel_state *state) {
+    if (state->scene->clip_count == 0)
+        return;
+    state->scene->clip_count--;
+    pel_state_change(state, "remove a cut");
+}
+
+static bool change_cuts(struct pel_state *state, enum pel_action action) {
+    if (action == PEL_ACTION_CLIP)
+        pel_command_add_clip(state, PEL_CLIP_PLANE);
+    else if (action == PEL_ACTION_UNCLIP)
+        pel_command_remove_clip(state);
+    return action == PEL_ACTION_CLIP || action == PEL_ACTION_UNCLIP;
+}
+
+static bool change_comparison(struct pel_state *state, enum pel_action action) {
+    if (action != PEL_ACTION_COMPARE && action != PEL_ACTION_COMPARE_BACK)
+        return false;
+    int mode =
+        next((int)state->compare.mode, action == PEL_ACTION_COMPARE ? 1 : -1, pel_compare_names());
+    pel_show_set_mode(state, (enum pel_compare_mode)mode);
+    pel_state_say(state, "compare: %s", pel_compare_names()[mode]);
+    return true;
+}
+
 bool pel_command_look(struct pel_state *state, enum pel_action action) {
     return change_volume_look(state, action) || change_eyes(state, action) ||
+           change_comparison(state, action) || change_cuts(state, action) ||
            change_quality(state, action);
 }

@@ -12,7 +12,7 @@ bool pel_event_push(struct pel_event_queue *queue, const struct pel_event *event
             return true;
         }
     }
-    if (queue->first + queue->count == queue->capacity) {
+    if (queue->first > 0 && queue->first + queue->count == queue->capacity) {
         memmove(queue->events, queue->events + queue->first,
                 (size_t)queue->count * sizeof *queue->events);
         queue->first = 0;

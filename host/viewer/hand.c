@@ -5,6 +5,8 @@
 
 #include "viewer/command.h"
 #include "viewer/keys.h"
+#include "viewer/show.h"
+#include "viewer/transfer_edit.h"
 
 // While a key is held: distances of the target, and degrees, each second.
 static const double move_per_s = 0.5, turn_deg_per_s = 60, closer_per_s = 0.7;
@@ -68,21 +70,52 @@ static void look_at_pointer(struct pel_state *state) {
     for (int i = 0; i < 3; i++) {
         camera.eye[i] += pick.position[i] - camera.target[i];
         camera.target[i] = pick.position[i];
+        state->cross[i] = pick.position[i];
     }
+    state->crossed = state->slices_old = true;
     state->selected = pick.instance;
     pel_navigation_go(&state->navigation, &camera, 0.3);
     pel_state_move_camera(state);
 }
 
+// The cross-hair goes to the pointer, which is in a slice.
+static void move_cross(struct pel_state *state, const double at_px[2]) {
+    struct pel_slice slice;
+    if (!pel_show_slice(state, state->drag_view, &slice))
+        return;
+    pel_slice_world(&slice, at_px, state->cross);
+    state->slices_old = state->redraw = true;
+}
+
+static bool is_on_split(const struct pel_state *state) {
+    const struct pel_compare *compare = &state->compare;
+    const struct pel_rectangle *place = &state->views[0].place;
+    double line_px = compare->split * (compare->across ? place->height : place->width);
+    double at_px = state->drag_px[compare->across];
+    return compare->mode == PEL_COMPARE_SPLIT &&
+           fabs(line_px - at_px) < reach_px * state->windows[0].scale;
+}
+
+static void move_split(struct pel_state *state, const double at_px[2]) {
+    const struct pel_rectangle *place = &state->views[0].place;
+    double size_px = state->compare.across ? place->height : place->width;
+    state->compare.split = fmin(fmax(at_px[state->compare.across] / size_px, 0), 1);
+    state->compare_old = true;
+}
+
 static void begin_left_drag(struct pel_state *state, int modifiers) {
-    if (modifiers & PEL_CONTROL)
+    if (state->drag_view > 0 && state->compare.mode == PEL_COMPARE_SLICES) {
+        state->drag = PEL_DRAG_CROSS;
+        move_cross(state, state->drag_px);
+    } else if (is_on_split(state)) {
+        state->drag = PEL_DRAG_SPLIT;
+    } else if (modifiers & PEL_CONTROL) {
         look_at_pointer(state);
-    else if (modifiers & PEL_SHIFT)
+    } else if (modifiers & PEL_SHIFT) {
         state->drag = begin_levels(state) ? PEL_DRAG_LEVELS : PEL_DRAG_NONE;
-    else if (take_handle(state))
-        state->drag = PEL_DRAG_HANDLE;
-    else
-        state->drag = PEL_DRAG_TURN;
+    } else {
+        state->drag = take_handle(state) ? PEL_DRAG_HANDLE : PEL_DRAG_TURN;
+    }
 }
 
 static void begin_drag(struct pel_state *state, const struct pel_event *event) {
@@ -131,7 +164,10 @@ static void drag_levels(struct pel_state *state, const double to_px[2]) {
     double right = (to_px[0] - state->drag_from_px[0]) / place->width;
     double down = (to_px[1] - state->drag_from_px[1]) / place->height;
     const struct pel_statistics *statistics = &state->scene->statistics[instance->volume];
-    pel_command_level(transfer, exp(2 * right), down * (statistics->max - statistics->min));
+    double low, high;
+    pel_transfer_window(transfer, &low, &high);
+    pel_transfer_drag_window(&low, &high, statistics, 2 * right, -down);
+    pel_transfer_set_window(transfer, low, high);
     pel_transfer_destroy(instance->transfer);
     instance->transfer = transfer;
     pel_state_change(state, "window and level");
@@ -161,6 +197,12 @@ static void drag(struct pel_state *state, const struct pel_event *event) {
     case PEL_DRAG_LEVELS:
         drag_levels(state, to_px);
         return;
+    case PEL_DRAG_CROSS:
+        move_cross(state, to_px);
+        return;
+    case PEL_DRAG_SPLIT:
+        move_split(state, to_px);
+        return;
     default:
         return;
     }
@@ -177,6 +219,15 @@ static void wheel(struct pel_state *state, const struct pel_event *event) {
     const struct pel_rectangle *place = &state->views[view].place;
     const int size[2] = {place->width, place->height};
     place_in_view(state, view, event, at_px);
+    struct pel_slice slice;
+    if (pel_show_slice(state, view, &slice)) {
+        double right[3], down[3], towards[3];
+        pel_slice_axes(&slice, right, down, towards);
+        for (int i = 0; i < 3; i++)
+            state->cross[i] += event->wheel * slice.mm_per_px * 2 * towards[i];
+        state->slices_old = state->redraw = true;
+        return;
+    }
     pel_navigation_wheel(&state->navigation, size, at_px, event->wheel);
     pel_state_move_camera(state);
 }

@@ -7,6 +7,9 @@
 #include "viewer/widget.h"
 
 void pel_panel_volumes(struct pel_state *state);
+void pel_panel_transfer(struct pel_state *state);
+void pel_panel_compare(struct pel_state *state);
+void pel_panel_clip(struct pel_state *state);
 void pel_panel_pose(struct pel_state *state);
 void pel_panel_look(struct pel_state *state);
 void pel_panel_light(struct pel_state *state);

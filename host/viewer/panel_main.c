@@ -60,7 +60,10 @@ static void draw_column(struct pel_state *state) {
         void (*draw)(struct pel_state *state);
     } sections[] = {
         {"Volumes", true, pel_panel_volumes},
+        {"Transfer function", true, pel_panel_transfer},
         {"Pose", false, pel_panel_pose},
+        {"Compare", false, pel_panel_compare},
+        {"Clipping", false, pel_panel_clip},
         {"Look", false, pel_panel_look},
         {"Lights and shading", false, pel_panel_light},
         {"Stereo", false, pel_panel_stereo},

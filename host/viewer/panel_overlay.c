@@ -3,6 +3,7 @@
 
 #include "viewer/gauge.h"
 #include "viewer/panel.h"
+#include "viewer/show.h"
 
 static const uint32_t white = 0xFFFFFFFF, shade = 0xA0000000;
 
@@ -105,6 +106,42 @@ static void draw_values(struct pel_state *state, const struct pel_view *view,
     }
 }
 
+// The line of a split, and the cross-hair in the slices and in the picture.
+static void draw_comparison(const struct pel_state *state, const struct pel_view *view,
+                            const struct pel_rectangle *where) {
+    const struct pel_compare *compare = &state->compare;
+    if (compare->mode == PEL_COMPARE_SPLIT) {
+        double x = where->x + compare->split * where->width;
+        double y = where->y + compare->split * where->height;
+        if (compare->across)
+            pel_widget_line((double[]){where->x, y}, (double[]){where->x + where->width, y}, white,
+                            1);
+        else
+            pel_widget_line((double[]){x, where->y}, (double[]){x, where->y + where->height}, white,
+                            1);
+    }
+    for (int i = 1; i < state->view_count; i++) {
+        const struct pel_rectangle *place = &state->views[i].place;
+        struct pel_slice slice;
+        double at[2];
+        if (!pel_show_slice(state, i, &slice))
+            continue;
+        pel_slice_pixel(&slice, state->cross, at);
+        double x = place->x + at[0], y = place->y + at[1];
+        pel_widget_line((double[]){place->x, y}, (double[]){place->x + place->width, y}, 0xA040E0FF,
+                        1);
+        pel_widget_line((double[]){x, place->y}, (double[]){x, place->y + place->height},
+                        0xA040E0FF, 1);
+        pel_widget_write((double[]){place->x + 6, place->y + 4}, white,
+                         pel_slice_names()[slice.plane]);
+    }
+    double at[2];
+    if (compare->mode == PEL_COMPARE_SLICES && pel_view_project(view, state->cross, at)) {
+        at[0] += where->x, at[1] += where->y;
+        pel_widget_disc(at, 5, 0xFF40E0FF, false);
+    }
+}
+
 void pel_panel_overlay(struct pel_state *state) {
     const struct pel_rectangle *where = &state->views[0].place;
     struct pel_view view;
@@ -114,6 +151,7 @@ void pel_panel_overlay(struct pel_state *state) {
     draw_cube(state, &view, where);
     draw_scale(state, &view, where);
     draw_handles(state, where);
+    draw_comparison(state, &view, where);
     draw_values(state, &view, where);
     pel_widget_draw_over(false);
 }

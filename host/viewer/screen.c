@@ -45,15 +45,35 @@ void pel_screen_close(struct pel_state *state) {
     state->window_count = 0;
 }
 
+// The picture gives three quarters of its place to slices: axial and coronal above, sagittal at its
+// left.
+static void make_room_for_slices(struct pel_state *state) {
+    const struct pel_rectangle whole = state->views[0].place;
+    int left = whole.width / 2, top = whole.height / 2;
+    int right = whole.width - left, bottom = whole.height - top;
+    const struct pel_rectangle places[] = {{whole.x + left, whole.y + top, right, bottom},
+                                           {whole.x, whole.y, left - 1, top - 1},
+                                           {whole.x + left, whole.y, right, top - 1},
+                                           {whole.x, whole.y + top, left - 1, bottom}};
+    if (left < 2 || top < 2)
+        return;
+    for (int i = 0; i < 4; i++)
+        state->views[i] = (struct pel_screen_view){.place = places[i]};
+    state->view_count = 4;
+    state->slices_old = true;
+}
+
 bool pel_screen_layout(struct pel_state *state) {
     struct pel_screen_view views[PEL_WORKER_VIEWS];
     memcpy(views, state->views, sizeof views);
     struct pel_pane_window *window = &state->windows[0];
     pel_window_pixels(window->window, window->pixels, &window->scale);
-    state->view_count = 1;
+    state->view_count = state->picture_count = 1;
     int left = pel_panels_width(state);
     state->views[0] =
         (struct pel_screen_view){.place = {left, 0, window->pixels[0] - left, window->pixels[1]}};
+    if (state->compare.mode == PEL_COMPARE_SLICES)
+        make_room_for_slices(state);
     // A window that is minimised has no pixels.
     if (state->views[0].place.width < 1 || state->views[0].place.height < 1)
         memcpy(state->views, views, sizeof views);
@@ -85,13 +105,11 @@ void pel_screen_fit_scene(const struct pel_state *state, int view, struct pel_sc
     }
 }
 
-void pel_screen_take(struct pel_state *state, const struct pel_worker_picture *picture) {
-    for (int i = 0; i < picture->view_count && i < state->view_count; i++) {
-        const struct pel_worker_pixels *pixels = &picture->views[i];
-        const struct pel_pane_window *window = &state->windows[state->views[i].window];
-        pel_window_draw_on(window->window);
-        pel_present_upload(window->present, i, pixels->width, pixels->height, pixels->rgba);
-    }
+void pel_screen_upload(struct pel_state *state, int view, int width, int height,
+                       const uint8_t *rgba) {
+    const struct pel_pane_window *window = &state->windows[state->views[view].window];
+    pel_window_draw_on(window->window);
+    pel_present_upload(window->present, view, width, height, rgba);
 }
 
 // Draws one window into whatever drawing goes to; `seconds` after the last time.

@@ -14,8 +14,9 @@ bool pel_screen_layout(struct pel_state *state);
 // Makes the scene that of one view: its size, and its camera.
 void pel_screen_fit_scene(const struct pel_state *state, int view, struct pel_scene *scene);
 
-// Hands the pixels of a picture to the windows they belong to.
-void pel_screen_take(struct pel_state *state, const struct pel_worker_picture *picture);
+// Hands the pixels of one view, 8-bit RGBA, to the window it is in.
+void pel_screen_upload(struct pel_state *state, int view, int width, int height,
+                       const uint8_t *rgba);
 
 // Draws all windows and shows them together.
 void pel_screen_draw(struct pel_state *state);

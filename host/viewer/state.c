@@ -13,11 +13,13 @@ double pel_state_clock_ms(void) {
 
 void pel_state_renew(struct pel_state *state) {
     state->version++;
+    state->picked = false;
     state->changed_ms = pel_state_clock_ms();
     state->redraw = true;
 }
 
 void pel_state_change(struct pel_state *state, const char *what) {
+    state->slices_old = true;
     if (!pel_history_record(state->history, state->scene, what, state->gesture))
         pel_state_say(state, "this cannot be undone: %s", pel_error_message());
     pel_state_renew(state);
@@ -29,8 +31,11 @@ void pel_state_begin_gesture(struct pel_state *state) {
 }
 
 void pel_state_move_camera(struct pel_state *state) {
+    bool slices_old = state->slices_old;
     state->scene->camera = state->navigation.camera;
     pel_state_change(state, "move the camera");
+    // Slices do not depend on it.
+    state->slices_old = slices_old;
 }
 
 void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene) {
@@ -39,6 +44,7 @@ void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene) {
     if (state->selected >= scene->instance_count)
         state->selected = scene->instance_count - 1;
     pel_navigation_set(&state->navigation, &scene->camera);
+    state->slices_old = true;
     pel_state_renew(state);
 }
 

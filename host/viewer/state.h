@@ -3,11 +3,13 @@
 #ifndef PEL_VIEWER_STATE_H
 #define PEL_VIEWER_STATE_H
 
+#include "viewer/compare.h"
 #include "viewer/handles.h"
 #include "viewer/history.h"
 #include "viewer/navigation.h"
 #include "viewer/pick.h"
 #include "viewer/present.h"
+#include "viewer/slice.h"
 #include "viewer/viewer.h"
 #include "viewer/window.h"
 #include "viewer/worker.h"
@@ -36,6 +38,8 @@ enum pel_drag {
     PEL_DRAG_ZOOM,
     PEL_DRAG_TILT,
     PEL_DRAG_HANDLE,
+    PEL_DRAG_CROSS,  // the cross-hair, in a slice
+    PEL_DRAG_SPLIT,  // the line between two volumes
     PEL_DRAG_LEVELS, // window and level of the selected volume
 };
 
@@ -69,13 +73,30 @@ struct pel_state {
     int window_count;
     struct pel_worker *worker;
 
+    // Comparing.
+    struct pel_compare compare;
+    int sides[2];         // instances
+    bool compare_old;     // what is compared has to be put together anew
+    long flicker_turn;    //
+    double cross[3];      // the cross-hair, in the world
+    bool crossed;         // it has a place
+    bool slices_windowed; // values as grey
+    bool slices_old;      // slices have to be rendered anew
+
+    // The plot of the transfer function.
+    int opacity_point, colour_point; // taken last
+    bool plot_held;                  // something is dragged on it
+    double plot_low, plot_high;      // the values it shows
+
     // What is shown, and whether it is what should be.
     struct pel_screen_view views[PEL_WORKER_VIEWS];
     int view_count;
+    int picture_count;      // of the views, those that the worker renders; slices follow them
     uint64_t version, sent; // counts the changes; the last one that was given to the worker
     bool sent_moving;       // as one of many
     double changed_ms;      // when the last change was
     bool quick;             // only a quick picture of `sent` was asked for
+    struct pel_worker_picture *kept; // owned; the newest one
     struct pel_worker_picture shown; // what is on the screen, without its pixels
     struct pel_worker_status status;
     int saved_count;             // pictures that the worker saved, and of which the user was told

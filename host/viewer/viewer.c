@@ -15,6 +15,7 @@
 #include "viewer/panels.h"
 #include "viewer/screen.h"
 #include "viewer/script.h"
+#include "viewer/show.h"
 #include "viewer/state.h"
 
 // What has not changed for this long is at rest.
@@ -39,16 +40,16 @@ static double target_ms(const struct pel_state *state) {
 static void send(struct pel_state *state, bool moving) {
     struct pel_worker_request request = {
         .id = state->version, .moving = moving, .target_ms = target_ms(state)};
-    for (int i = 0; i < state->view_count; i++) {
-        struct pel_scene *scene = pel_scene_copy(state->scene);
-        if (!scene) {
+    int count = pel_show_scene_count(state);
+    for (int i = 0; i < count; i++) {
+        request.scenes[i] = pel_show_scene(state, i);
+        if (!request.scenes[i]) {
             pel_state_say(state, "%s", pel_error_message());
             break;
         }
-        pel_screen_fit_scene(state, i, scene);
-        request.scenes[request.view_count++] = scene;
+        request.view_count++;
     }
-    if (request.view_count == state->view_count)
+    if (request.view_count == count)
         pel_worker_submit(state->worker, &request);
     else
         for (int i = 0; i < request.view_count; i++)
@@ -70,13 +71,10 @@ static void take_picture(struct pel_state *state) {
     struct pel_worker_picture *picture = pel_worker_take(state->worker);
     if (!picture)
         return;
-    pel_screen_take(state, picture);
     state->shown = *picture;
-    for (int i = 0; i < picture->view_count; i++)
-        state->shown.views[i].rgba = NULL;
+    pel_show_take(state, picture);
     state->shown_count++;
     state->redraw = true;
-    pel_worker_picture_destroy(picture);
 }
 
 static void ask_worker(struct pel_state *state) {
@@ -197,6 +195,8 @@ static void play_script(struct pel_state *state) {
 static double wait_seconds(const struct pel_state *state) {
     if (state->redraw || state->queue.count > 0)
         return 0;
+    if (state->compare.mode == PEL_COMPARE_FLICKER)
+        return 0.02;
     if (pel_hand_is_busy(state) || state->latency ||
         (state->script && !pel_script_is_over(state->script)))
         return 0.005;
@@ -231,6 +231,7 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
         react_to_all(state);
         ask_for_picture(state);
         take_picture(state);
+        pel_show_update(state);
         bool was_busy = state->status.busy;
         ask_worker(state);
         if (state->redraw || was_busy || state->status.busy)
@@ -262,6 +263,11 @@ static enum pel_error start(struct pel_state *state, char *sentence, size_t byte
     pel_navigation_start(&state->navigation, &state->scene->camera);
     if (state->options->scene_path)
         snprintf(state->scene_path, sizeof state->scene_path, "%s", state->options->scene_path);
+    state->sides[1] = 1;
+    state->compare.share = state->compare.split = 0.5;
+    state->compare.cell_px = 48;
+    state->compare.period_s = 1;
+    state->opacity_point = state->colour_point = -1;
     state->now_ms = pel_state_clock_ms();
     if (state->options->script) {
         state->script = pel_script_load(state->options->script, sentence, bytes);
@@ -290,6 +296,7 @@ enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *se
     if (!code)
         code = loop(state, sentence, bytes);
     pel_worker_destroy(state->worker);
+    pel_show_finish(state);
     pel_screen_close(state);
     pel_window_stop();
     pel_event_finish(&state->queue);

@@ -83,6 +83,10 @@ bool pel_widget_take_event(const struct pel_event *event) {
         return io.WantCaptureMouse;
     case PEL_EVENT_BUTTON:
         io.MousePos = ImVec2(static_cast<float>(event->x), static_cast<float>(event->y));
+        // A modifier that was let go of after its key is told by the next click.
+        io.KeyShift = event->modifiers & PEL_SHIFT;
+        io.KeyCtrl = event->modifiers & PEL_CONTROL;
+        io.KeyAlt = event->modifiers & PEL_ALT;
         // ImGui counts left, right, middle, as we do.
         io.MouseDown[event->button] = event->down;
         return io.WantCaptureMouse;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "volume/hypertexture.h"
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
@@ -94,9 +95,19 @@ struct pel_volume *pel_volume_create(const char *name, const int dims[3],
     return volume;
 }
 
+void pel_hypertexture_destroy(struct pel_hypertexture *hypertexture) {
+    if (!hypertexture)
+        return;
+    pel_volume_destroy(hypertexture->object);
+    free(hypertexture->recipe);
+    free(hypertexture->program);
+    free(hypertexture);
+}
+
 void pel_volume_destroy(struct pel_volume *volume) {
     if (!volume || __atomic_fetch_sub(&volume->shares, 1, __ATOMIC_ACQ_REL) > 0)
         return;
+    pel_hypertexture_destroy(volume->hypertexture);
     free(volume->name);
     free(volume->voxels);
     free(volume);

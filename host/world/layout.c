@@ -57,7 +57,7 @@ double pel_reader_factor(enum pel_reader reader, int class_index) {
 static uint64_t layer_bytes(const struct pel_volume *volume) {
     return (uint64_t)pel_brick_count((size_t)volume->dims[0] + 2) *
            pel_brick_count((size_t)volume->dims[1] + 2) * BRICK_VOXELS *
-           pel_voxel_class_bytes(pel_voxel_class(volume->type));
+           pel_brick_element_bytes(pel_voxel_class_bytes(pel_voxel_class(volume->type)));
 }
 
 // All stored bytes of the scene, borders included but not those between slabs.
@@ -79,7 +79,8 @@ static struct pel_slab *add_slab(struct pel_layout *layout, const struct pel_sce
     struct pel_slab *slab = &layout->slabs[layout->slab_count++];
     // Layouts are compared byte by byte, so padding is cleared as well.
     memset(slab, 0, sizeof *slab);
-    slab->serial = scene->volumes[v]->serial;
+    // A recipe may change without anything here changing.
+    slab->serial = scene->volumes[v]->hypertexture ? 0 : scene->volumes[v]->serial;
     slab->volume = v;
     slab->class_index = pel_voxel_class(scene->volumes[v]->type);
     slab->first = first;
@@ -118,6 +119,11 @@ static bool plan_buffers(struct pel_layout *layout, const struct pel_scene *scen
         limits->max_allocation_bytes < buffer_limit ? limits->max_allocation_bytes : buffer_limit;
     for (int v = 0; v < scene->volume_count; v++) {
         const struct pel_volume *volume = scene->volumes[v];
+        if (volume->hypertexture) {
+            if (!add_slab(layout, scene, v, 0, volume->dims[2]))
+                return false;
+            continue;
+        }
         uint64_t layer = layer_bytes(volume);
         uint64_t most =
             limit / layer * BRICK_SIDE; // slices that fit into one buffer, border included
@@ -232,6 +238,14 @@ static bool plan_images(struct pel_layout *layout, const struct pel_scene *scene
     return true;
 }
 
+// Whether something is worked out at every sample.
+static bool has_live(const struct pel_scene *scene) {
+    for (int v = 0; v < scene->volume_count; v++)
+        if (scene->volumes[v]->hypertexture)
+            return true;
+    return false;
+}
+
 // How far from a sample that can be seen voxels are read: gradients and cubic filters look around.
 static int pool_margin(const struct pel_scene *scene) {
     int margin = 0;
@@ -268,6 +282,8 @@ static bool plan_pool(struct pel_layout *layout, const struct pel_scene *scene) 
 // Whether nothing is read where nothing can be seen: a surface between two samples, for one, is
 // found from values on both sides.
 static bool pool_serves(const struct pel_scene *scene) {
+    if (has_live(scene))
+        return false;
     for (int k = 0; k < scene->instance_count; k++) {
         enum pel_model model = pel_model_of(scene, &scene->instances[k]);
         if (!scene->instances[k].hidden && model != PEL_MODEL_ABSORPTION &&
@@ -280,6 +296,9 @@ static bool pool_serves(const struct pel_scene *scene) {
 static bool plan_reader(struct pel_layout *layout, const struct pel_scene *scene,
                         const struct pel_layout_limits *limits, enum pel_reader reader,
                         enum pel_reader preferred) {
+    // Images are for voxels; a kernel that works out recipes has none.
+    if (has_live(scene))
+        reader = PEL_READER_BUFFER;
     enum pel_reader first = reader == PEL_READER_AUTO ? preferred : reader;
     memset(layout, 0, sizeof *layout);
     layout->cell_side = CELL_VOXELS;

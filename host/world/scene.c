@@ -48,11 +48,15 @@ bool pel_volume_source_copy(struct pel_volume_source *copy,
                             const struct pel_volume_source *source) {
     *copy = *source;
     copy->file = source->file ? pel_copy_text(source->file) : NULL;
-    return copy->file || !source->file;
+    copy->recipe = source->recipe ? pel_copy_text(source->recipe) : NULL;
+    copy->object = source->object ? pel_volume_share(source->object) : NULL;
+    return (copy->file || !source->file) && (copy->recipe || !source->recipe);
 }
 
 void pel_volume_source_finish(struct pel_volume_source *source) {
     free(source->file);
+    free(source->recipe);
+    pel_volume_destroy(source->object);
 }
 
 void pel_scene_destroy(struct pel_scene *scene) {

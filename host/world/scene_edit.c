@@ -21,6 +21,14 @@ static void replace_spacing(struct pel_volume *volume, const double spacing_mm[3
 }
 
 struct pel_volume *pel_volume_source_open(const struct pel_volume_source *source) {
+    if (source->recipe) {
+        const struct pel_bake_options options = {.size = source->hypertexture.size,
+                                                 .type = source->hypertexture.type,
+                                                 .seed = source->hypertexture.seed,
+                                                 .time = source->hypertexture.time,
+                                                 .object = source->object};
+        return pel_volume_hypertexture(source->recipe, &options, source->hypertexture.live);
+    }
     if (!source->file && !source->kind) {
         pel_fail(PEL_ERROR_ARGUMENT, "the volume came from the program, not from a file");
         return NULL;

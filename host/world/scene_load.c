@@ -10,6 +10,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "transfer/blend.h"
+#include "world/hypertexture.h"
 #include "world/scene.h"
 
 static bool same_text(const char *a, const char *b) {
@@ -40,12 +41,23 @@ static bool same_load_options(const struct pel_load_options *a, const struct pel
            a->raw.big_endian == b->raw.big_endian;
 }
 
+static bool same_hypertexture(const struct pel_volume_source *a,
+                              const struct pel_volume_source *b) {
+    return a->hypertexture.size == b->hypertexture.size &&
+           a->hypertexture.type == b->hypertexture.type &&
+           a->hypertexture.seed == b->hypertexture.seed &&
+           a->hypertexture.time == b->hypertexture.time &&
+           a->hypertexture.live == b->hypertexture.live;
+}
+
 // The scene's volume of the same voxels in the same place, or -1.
 static int find_volume(const struct pel_scene *scene, const struct pel_volume_source *wanted) {
     for (int i = 0; scene && i < scene->volume_count; i++) {
         const struct pel_volume_source *source = &scene->sources[i];
         const struct pel_generate_options *a = &source->generate, *b = &wanted->generate;
-        if ((source->file || source->kind) && same_file(source->file, wanted->file) &&
+        if ((source->file || source->kind || source->recipe) &&
+            same_text(source->recipe, wanted->recipe) && source->object == wanted->object &&
+            same_hypertexture(source, wanted) && same_file(source->file, wanted->file) &&
             same_text(source->kind, wanted->kind) &&
             same_load_options(&source->load, &wanted->load) && a->size == b->size &&
             a->spacing_mm == b->spacing_mm && a->type == b->type && a->second == b->second &&
@@ -55,16 +67,33 @@ static int find_volume(const struct pel_scene *scene, const struct pel_volume_so
     return -1;
 }
 
+// What the plan says of where voxels come from; borrows everything. What a hypertexture grows on is
+// there already.
+static struct pel_volume_source make_source(const struct pel_scene *scene,
+                                            const struct pel_volume_plan *wanted) {
+    struct pel_volume_source source = {.file = wanted->file,
+                                       .load = wanted->load,
+                                       .kind = wanted->kind,
+                                       .generate = wanted->generate};
+    memcpy(source.spacing, wanted->spacing, sizeof source.spacing);
+    if (!wanted->recipe)
+        return source;
+    source.recipe = wanted->recipe;
+    source.hypertexture.size = wanted->bake.size;
+    source.hypertexture.type = wanted->bake.type;
+    source.hypertexture.seed = wanted->bake.seed;
+    source.hypertexture.time = wanted->bake.time;
+    source.hypertexture.live = wanted->live;
+    if (wanted->object >= 0)
+        source.object = scene->volumes[scene->instances[wanted->object].volume];
+    return source;
+}
+
 // Loads the volume of one instance, or finds it among those already here or in the scene before.
 static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, int instance,
                         const struct pel_scene *before) {
     struct pel_volume_plan *wanted = &plan->volume[instance];
-    struct pel_volume_source source = {
-        wanted->file,
-        wanted->load,
-        wanted->kind,
-        wanted->generate,
-        {wanted->spacing[0], wanted->spacing[1], wanted->spacing[2]}};
+    struct pel_volume_source source = make_source(scene, wanted);
     int *index = &scene->instances[instance].volume;
     *index = find_volume(scene, &source);
     if (*index >= 0)
@@ -78,7 +107,9 @@ static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, in
     scene->volumes[*index] = volume;
     if (!pel_volume_source_copy(&scene->sources[*index], &source))
         return false;
-    if (kept < 0)
+    if (volume->hypertexture)
+        pel_hypertexture_measure(&scene->statistics[*index]);
+    else if (kept < 0)
         pel_volume_measure(volume, &scene->statistics[*index]);
     else
         scene->statistics[*index] = before->statistics[kept];
@@ -178,8 +209,12 @@ static void warn_unseen(const struct pel_scene *scene) {
 
 bool pel_scene_load_volumes(struct pel_scene *scene, struct pel_scene_plan *plan,
                             const struct pel_scene *before) {
+    // Hypertextures last: what they grow on comes first.
     for (int i = 0; i < scene->instance_count; i++)
-        if (!load_volume(scene, plan, i, before))
+        if (!plan->volume[i].recipe && !load_volume(scene, plan, i, before))
+            return false;
+    for (int i = 0; i < scene->instance_count; i++)
+        if (plan->volume[i].recipe && !load_volume(scene, plan, i, before))
             return false;
     for (int i = 0; i < scene->instance_count; i++)
         if (!settle_transfer(scene, plan, i) || !settle_pose(scene, plan, i) ||

@@ -34,7 +34,12 @@ struct pel_volume_plan {
     const char *kind;
     struct pel_load_options load;
     struct pel_generate_options generate;
-    double spacing[3]; // replaces the file's; 0 = does not
+    double spacing[3];            // replaces the file's; 0 = does not
+    char *recipe;                 // owned; of a hypertexture
+    struct pel_bake_options bake; // likewise
+    bool live;
+    const char *object_name; // of the volume it grows on, or NULL
+    int object;              // its index; -1 = none
     struct pel_pose_plan pose;
     bool filter_given;
     double opacity_unit_mm;       // replaces the transfer function's; 0 = does not

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "world/scene_write.h"
@@ -15,6 +16,9 @@ static const char *const raw_keys[] = {"comment", "dims",   "type",   "spacing",
                                        "origin",  "offset", "endian", NULL};
 static const char *const generate_keys[] = {"comment", "kind",   "size", "spacing",
                                             "type",    "second", NULL};
+
+static const char *const hypertexture_keys[] = {"comment", "recipe", "size",   "type", "seed",
+                                                "time",    "live",   "object", NULL};
 
 static const char *const endian_names[] = {"little", "big", NULL};
 
@@ -25,6 +29,7 @@ static const char *const generate_type_names[] = {"uint8", "uint16", "float32", 
 static const enum pel_voxel_type generate_types[] = {PEL_VOXEL_U8, PEL_VOXEL_U16, PEL_VOXEL_F32};
 
 enum { DIMENSION_MAX = 65536, GENERATE_MAX = 2048 };
+enum { HYPERTEXTURE_SIZE = 64, HYPERTEXTURE_MAX = 1024 };
 
 static bool read_dims(int dims[3], const struct pel_scene_node *raw) {
     struct pel_scene_node node;
@@ -110,21 +115,64 @@ static bool read_generate(struct pel_volume_plan *plan, const struct pel_scene_n
     return true;
 }
 
+// A preset or a file by its name, or the recipe itself, which becomes its text.
+static bool read_recipe(struct pel_volume_plan *plan, const struct pel_scene_node *node) {
+    struct pel_scene_node recipe;
+    const char *name = NULL;
+    if (!pel_node_member(&recipe, node, "recipe"))
+        return pel_node_fail(node, "needs 'recipe'");
+    if (json_is_object(recipe.value)) {
+        char *text = json_dumps(recipe.value, JSON_COMPACT);
+        plan->recipe = text ? pel_copy_text(text) : NULL;
+        free(text);
+        return plan->recipe || pel_fail(PEL_ERROR_MEMORY, "cannot allocate a recipe");
+    }
+    if (!pel_node_get_text(node, "recipe", &name))
+        return false;
+    bool file = strchr(name, '/') || pel_path_has_extension(name, ".json");
+    plan->recipe = file ? pel_node_path(&recipe, name) : pel_copy_text(name);
+    return plan->recipe != NULL;
+}
+
+static bool read_hypertexture(struct pel_volume_plan *plan, const struct pel_scene_node *node) {
+    const struct pel_range time_range = {.low = -1e6, .high = 1e6};
+    int type = 0, seed = 0;
+    plan->bake.size = HYPERTEXTURE_SIZE;
+    if (!pel_node_check_object(node, hypertexture_keys) || !read_recipe(plan, node) ||
+        !pel_node_get_integer(node, "size", 2, HYPERTEXTURE_MAX, &plan->bake.size) ||
+        !pel_node_get_name(node, "type", generate_type_names, &type) ||
+        !pel_node_get_integer(node, "seed", 0, INT_MAX, &seed) ||
+        !pel_node_get_number(node, "time", &time_range, &plan->bake.time) ||
+        !pel_node_get_bool(node, "live", &plan->live) ||
+        !pel_node_get_text(node, "object", &plan->object_name))
+        return false;
+    plan->bake.seed = (uint32_t)seed;
+    plan->bake.type = generate_types[type];
+    return true;
+}
+
 bool pel_scene_read_source(struct pel_volume_plan *plan, const struct pel_scene_node *node) {
     static const char *const only_files[] = {"raw", "time", "channel", NULL};
     struct pel_scene_node file, generate, member;
     bool has_file = pel_node_member(&file, node, "file");
     bool has_generate = pel_node_member(&generate, node, "generate");
+    struct pel_scene_node hypertexture;
+    bool has_hypertexture = pel_node_member(&hypertexture, node, "hypertexture");
     if (has_file && has_generate)
         return pel_node_fail(&generate, "there is a 'file' already");
-    if (!has_file && !has_generate)
-        return pel_node_fail(node, "needs 'file' or 'generate'");
+    if (has_hypertexture && (has_file || has_generate))
+        return pel_node_fail(&hypertexture, "there is a '%s' already",
+                             has_file ? "file" : "generate");
+    if (!has_file && !has_generate && !has_hypertexture)
+        return pel_node_fail(node, "needs 'file', 'generate' or 'hypertexture'");
     if (has_file)
         return read_file(plan, node);
     for (int i = 0; only_files[i]; i++)
         if (pel_node_member(&member, node, only_files[i]))
             return pel_node_fail(&member, "applies to files only");
-    return read_generate(plan, &generate);
+    if (has_hypertexture && pel_node_member(&member, node, "spacing"))
+        return pel_node_fail(&member, "applies to voxels, of which a hypertexture has 'size'");
+    return has_generate ? read_generate(plan, &generate) : read_hypertexture(plan, &hypertexture);
 }
 
 static void write_raw(struct pel_scene_writer *writer, json_t *volume,
@@ -155,9 +203,41 @@ static void write_generate(struct pel_scene_writer *writer, json_t *volume,
     pel_write_bool(writer, generate, "second", options->second, false);
 }
 
+// The name of an instance that shows the volume; a hidden one does as well.
+static const char *name_of(const struct pel_scene *scene, const struct pel_volume *volume) {
+    for (int i = 0; i < scene->instance_count; i++)
+        if (scene->volumes[scene->instances[i].volume] == volume)
+            return scene->instances[i].name;
+    return "";
+}
+
+static void write_hypertexture(struct pel_scene_writer *writer, json_t *volume,
+                               const struct pel_volume_source *source) {
+    json_t *object = pel_write_object(writer, volume, "hypertexture");
+    const char *recipe = source->recipe;
+    int type = 0;
+    while (type < 2 && generate_types[type] != source->hypertexture.type)
+        type++;
+    if (*recipe == '{')
+        pel_write_value(writer, object, "recipe", json_loads(recipe, 0, NULL));
+    else if (strchr(recipe, '/') || pel_path_has_extension(recipe, ".json"))
+        pel_write_path(writer, object, "recipe", recipe);
+    else
+        pel_write_text(writer, object, "recipe", recipe);
+    pel_write_number(writer, object, "size", source->hypertexture.size, HYPERTEXTURE_SIZE);
+    pel_write_name(writer, object, "type", generate_type_names, type, 0);
+    pel_write_number(writer, object, "seed", source->hypertexture.seed, 0);
+    pel_write_number(writer, object, "time", source->hypertexture.time, 0);
+    pel_write_bool(writer, object, "live", source->hypertexture.live, false);
+    if (source->object)
+        pel_write_text(writer, object, "object", name_of(writer->scene, source->object));
+}
+
 void pel_scene_write_source(struct pel_scene_writer *writer, json_t *volume,
                             const struct pel_volume_source *source) {
-    if (!source->file) {
+    if (source->recipe) {
+        write_hypertexture(writer, volume, source);
+    } else if (!source->file) {
         write_generate(writer, volume, source);
     } else {
         const struct pel_load_options *load = &source->load;

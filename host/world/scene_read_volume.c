@@ -14,6 +14,7 @@
 
 static const char *const volume_keys[] = {"comment",
                                           "file",
+                                          "hypertexture",
                                           "generate",
                                           "raw",
                                           "time",
@@ -81,7 +82,9 @@ bool pel_scene_find_instance(const struct pel_scene *scene, const struct pel_sce
 
 static bool read_name(struct pel_instance *instance, const struct pel_volume_plan *plan) {
     struct pel_scene_node node;
-    const char *name = plan->file ? pel_path_leaf(plan->file) : plan->kind;
+    const char *name = plan->file   ? pel_path_leaf(plan->file)
+                       : plan->kind ? plan->kind
+                                    : "hypertexture";
     if (!pel_node_get_text(&plan->node, "name", &name))
         return false;
     bool given = pel_node_member(&node, &plan->node, "name");
@@ -128,7 +131,7 @@ static void write_volume(struct pel_scene_writer *writer, json_t *volume,
                          const struct pel_instance *instance) {
     const struct pel_scene *scene = writer->scene;
     const struct pel_volume_source *source = &scene->sources[instance->volume];
-    if (!source->file && !source->kind && !writer->failed) {
+    if (!source->file && !source->kind && !source->recipe && !writer->failed) {
         writer->failed = true;
         pel_fail(PEL_ERROR_ARGUMENT, "volume '%s' came from no file that a scene could name",
                  instance->name);
@@ -165,6 +168,21 @@ static bool read_fixed(const struct pel_scene *scene, struct pel_volume_plan *pl
     return pose->fixed != self || pel_node_fail(&node, "'%s' is this volume", pose->fixed_name);
 }
 
+// Likewise what a hypertexture grows on. Hypertextures have no voxels to grow on.
+static bool read_object(const struct pel_scene *scene, struct pel_scene_plan *plan, int self) {
+    struct pel_scene_node hypertexture, node;
+    struct pel_volume_plan *volume = &plan->volume[self];
+    volume->object = -1;
+    if (!volume->object_name)
+        return true;
+    pel_node_member(&hypertexture, &volume->node, "hypertexture");
+    pel_node_member(&node, &hypertexture, "object");
+    if (!pel_scene_find_instance(scene, &node, volume->object_name, &volume->object))
+        return false;
+    return !plan->volume[volume->object].recipe ||
+           pel_node_fail(&node, "'%s' is a hypertexture itself", volume->object_name);
+}
+
 bool pel_scene_read_volumes(struct pel_scene *scene, struct pel_scene_plan *plan) {
     if (!pel_node_member(&plan->volumes, &plan->scene, "volumes"))
         return pel_node_fail(&plan->scene, "needs 'volumes'");
@@ -178,7 +196,7 @@ bool pel_scene_read_volumes(struct pel_scene *scene, struct pel_scene_plan *plan
             return false;
     }
     for (size_t i = 0; i < count; i++)
-        if (!read_fixed(scene, &plan->volume[i], (int)i))
+        if (!read_fixed(scene, &plan->volume[i], (int)i) || !read_object(scene, plan, (int)i))
             return false;
     return true;
 }
@@ -196,6 +214,7 @@ void pel_scene_write_volumes(struct pel_scene_writer *writer, json_t *root) {
 void pel_scene_plan_finish(struct pel_scene_plan *plan) {
     for (int i = 0; i < PEL_VOLUME_MAX; i++) {
         free(plan->volume[i].file);
+        free(plan->volume[i].recipe);
         free(plan->volume[i].pose.file);
         pel_transfer_destroy(plan->volume[i].towards);
     }

@@ -81,6 +81,21 @@ static void fill_table_address(struct part *part, const struct pel_volume *volum
     part->table_nearest = table->nearest;
 }
 
+// Gives the part the number of its volume's recipe.
+static bool fill_recipe(struct pel_world *world, struct part *part, int volume) {
+    int number = 0;
+    while (number < world->live_count && world->live[number] != volume)
+        number++;
+    if (number == RECIPE_LIVE_MAX)
+        return pel_fail(PEL_ERROR_UNSUPPORTED,
+                        "more than %d hypertextures are live; the others can be baked",
+                        RECIPE_LIVE_MAX);
+    if (number == world->live_count)
+        world->live[world->live_count++] = volume;
+    part->recipe = number + 1;
+    return true;
+}
+
 // The parts of one instance, one for each slab of its volume.
 static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_layout *layout, const struct pel_instance *instance,
@@ -125,7 +140,10 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         part->memory_from_voxel = to_float4(shift, 0);
         part->atlas_from_memory = to_float4(origin, 0);
         part->buffer = slab->buffer;
-        part->offset = (u32)(slab->offset_bytes / pel_voxel_class_bytes(slab->class_index));
+        part->offset = (u32)(slab->offset_bytes /
+                             pel_brick_element_bytes(pel_voxel_class_bytes(slab->class_index)));
+        if (volume->hypertexture && !fill_recipe(world, part, instance->volume))
+            return false;
         part->voxels = 1 << slab->class_index;
         world->voxels |= part->voxels;
 

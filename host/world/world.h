@@ -2,6 +2,7 @@
 #ifndef PEL_WORLD_WORLD_H
 #define PEL_WORLD_WORLD_H
 
+#include "shared/recipe.h"
 #include "world/layout.h"
 
 // One frame's constant data, and which kernel it needs.
@@ -28,6 +29,9 @@ struct pel_world {
     bool probe;         // one ray is to write down what it meets
     double centre[3];   // world millimetres of the origin of the kernels' world
     int instances[WORLD_PART_MAX]; // which instance of the scene each part is of
+    int live[RECIPE_LIVE_MAX]; // volumes that are worked out at every sample, in the order of their
+                               // recipes
+    int live_count;
     bool depth; // strengths are optical depths: more than one part, and extinctions add
 };
 

@@ -15,6 +15,7 @@
 #define RECIPE_PLACE_MAX 4   // positions within positions
 #define RECIPE_OCTAVE_MAX 12 // of a sum of noises
 #define RECIPE_LATTICE 256   // entries of the lattice's tables
+#define RECIPE_LIVE_MAX 4    // recipes that a frame works out at every sample
 #define BAKE_ROUND 64        // batches begin at multiples of this, so that 32 bits count them
 
 // Operations. `value` is the instruction's own number.
@@ -90,7 +91,8 @@ struct recipe {
     u32 seed;                                 // of Worley's points
     float time;
     float object_low, object_span; // value = low + span * RECIPE_OBJECT
-    float pad[3];
+    u32 object_offset;             // of the volume's first value among those of all recipes
+    float pad[2];
 };
 SHARED_ASSERT(sizeof(struct instruction) == 8, instruction_size);
 SHARED_ASSERT(sizeof(struct recipe) == 7296, recipe_size);

@@ -79,7 +79,8 @@ struct part {
     i32 gradient;               // one of GRADIENT_*
     i32 styled;                 // 1: opacity follows the gradient, as the next two say
     i32 ramp_count;             //
-    i32 pad[2];
+    i32 recipe; // 1 + number of what is worked out at every sample; 0: there are voxels
+    i32 pad[1];
     float4 silhouette;          // base, strength and exponent; and the factor before all ramps
     float4 ramps[GRADIENT_RAMPS]; // start, 1 / width, in ranges of the table per mm; rise of the factor
 };

@@ -57,7 +57,7 @@ static void test_slabs(void **state) {
     instance->material.shading = PEL_SHADING_BLINN_PHONG;
     instance->filter = PEL_FILTER_CUBIC_B_SPLINE;
     struct pel_renderer_options options = {.reader = PEL_READER_BUFFER,
-                                           .max_allocation_bytes = BRICK_VOXELS};
+                                           .max_allocation_bytes = 2 * BRICK_VOXELS};
     struct pel_renderer *renderer = pel_renderer_create(&options);
     assert_non_null(renderer);
     pel_image_destroy(judge_render(renderer, scene, NULL, "slabs"));

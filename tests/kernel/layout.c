@@ -62,6 +62,7 @@ static const struct {
     AT(part, number),
     AT(part, rank),
     AT(part, medium),
+    AT(part, recipe),
     AT(part, cuts),
     AT(part, plane_count),
     AT(part, box_count),
@@ -111,6 +112,7 @@ static const struct {
     AT(recipe, time),
     AT(recipe, object_low),
     AT(recipe, object_span),
+    AT(recipe, object_offset),
 };
 
 enum { COUNT = sizeof host / sizeof *host };

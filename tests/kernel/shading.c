@@ -107,7 +107,7 @@ static void test_slabs(void **state) {
         scene_add(scene, volume, scene_transfer_gentle((double[]){0, 255}, 0.2, 3));
     instance->material.shading = PEL_SHADING_BLINN_PHONG;
     struct pel_renderer_options options = {.reader = PEL_READER_BUFFER,
-                                           .max_allocation_bytes = BRICK_VOXELS};
+                                           .max_allocation_bytes = 2 * BRICK_VOXELS};
     struct pel_renderer *renderer = pel_renderer_create(&options);
     assert_non_null(renderer);
     pel_image_destroy(judge_render(renderer, scene, NULL, "slabs"));

@@ -3,6 +3,11 @@
 
 #include <math.h>
 
+#include "reference/recipe.h"
+
+// No hypertexture that is compared rises faster than this from one voxel of its grid to the next.
+static const double steepest_density = 8;
+
 // What is interpolated: the value as stored, and the voxel's own colour in 0..255.
 enum { RAW, RED, GREEN, BLUE, CHANNELS };
 
@@ -142,8 +147,12 @@ static void read_cubic(double channels[CHANNELS], double *spread, const struct p
 
 bool reference_sample_volume(struct reference_sample *sample, const struct pel_volume *volume,
                              enum pel_filter filter, const double p_voxel[3]) {
-    double channels[CHANNELS], spread = 0;
-    if (filter == PEL_FILTER_NEAREST)
+    double channels[CHANNELS] = {0}, spread = 0;
+    // Without voxels there is nothing to interpolate: docs/hypertexture.md, "In a scene".
+    if (volume->hypertexture) {
+        channels[RAW] = reference_hypertexture(volume, p_voxel);
+        spread = steepest_density;
+    } else if (filter == PEL_FILTER_NEAREST)
         read_nearest(channels, volume, p_voxel);
     else if (filter != PEL_FILTER_LINEAR)
         read_cubic(channels, &spread, volume, filter, p_voxel);

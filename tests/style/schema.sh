@@ -38,6 +38,7 @@ pairs = {
     "scene_camera.c:camera_keys": (defs["camera"], "camera"),
     "scene_read_volume.c:volume_keys": (defs["volume"], "volume"),
     "scene_read_source.c:generate_keys": (defs["generate"], "generate"),
+    "scene_read_source.c:hypertexture_keys": (defs["hypertexture"], "hypertexture"),
     "scene_read_source.c:raw_keys": (defs["raw"], "raw"),
     "scene_read_pose.c:transform_keys": (transforms, "transform"),
     "scene_read_pose.c:quaternion_keys": (quaternion, None),
@@ -107,7 +108,8 @@ for path, scene in scenes.items():
 # The examples in the tables do, too.
 def place(section, key, value):
     volume = {"file": "a"}
-    holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"}, "raw": {"dims": [1, 1, 1]},
+    holder = {"Scene": {}, "camera": {}, "volume": volume, "generate": {"kind": "c60"},
+              "hypertexture": {"recipe": "cloud"}, "raw": {"dims": [1, 1, 1]},
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
                "render": {}, "stereo": {}, "wall": {}, "region": {"place": [0, 0, 1, 1]}, "output": {}, "light": {}, "shading": {}, "silhouette": {}, "supersampling": {}, "iso": {"value": 1},
                "clip": {}, "plane": {"normal": [0, 0, 1]}, "box": {"size": [1, 1, 1]},
@@ -122,13 +124,13 @@ def place(section, key, value):
     if section == "light":
         holder["kind"] = {"direction": "directional", "position": "point"}.get(key, "headlight")
     holder[key] = value
-    if section == "volume" and key == "generate":
+    if section == "volume" and key in ("generate", "hypertexture"):
         del volume["file"]
     inner = {section: holder}
     if section == "Scene":
         return {"volumes": [volume], **holder}
-    if section in ("generate",):
-        volume = {"generate": holder}
+    if section in ("generate", "hypertexture"):
+        volume = {section: holder}
     elif section in ("supersampling", "bricks"):
         return {"volumes": [volume], "render": {section: holder}}
     elif section == "track":

@@ -34,7 +34,9 @@ static const char *const rich[] = {
     "{'camera': {'eye': [1, 2, 3.25], 'target': [0.1, 0.2, 0.3], 'up': [0, 1, 0], 'fov': 33.3,"
     "   'orthographic': true, 'height': 77, 'shift': [0.25, -0.125]},"
     " 'background': [0.1, 0.2, 0.3, 0.4],"
-    " 'lights': [{'kind': 'directional', 'direction': [1, 2, 3], 'colour': '#80ff00',"
+    " 'clip': [{'box': {'centre': [1, 2, 3], 'size': [4, 5, 6], "
+    "'quaternion': [0, 0, 1, 0]}}], 'lights': [{'kind': 'directional', 'direction': [1, 2, 3], "
+    "'colour': '#80ff00',"
     "   'intensity': 0.3}, {'kind': 'point', 'position': [4, 5, 6], 'colour': [0.1, 0.2, 0.3]},"
     "   {'kind': 'camera'}, {}],"
     " 'volumes': [{'file': 'a.raw', 'raw': {'dims': [2, 3, 4], 'type': 'int8',"
@@ -45,8 +47,10 @@ static const char *const rich[] = {
     "   'opacities': [[1, 0.25], [2, 0.5], [3, 1]], 'scale': 'percentile',"
     "   'opacity_unit': 3, 'interpolation': 'nearest', 'entries': 77}, 'density': 0.7, 'priority': "
     "2,"
-    "   'extent': 'point', 'filter': 'nearest', 'step': 0.3, 'preintegration': true, 'gradient': "
-    "'sobel',"
+    "   'clip': [{'plane': {'point': [1, 2, 3], 'normal': [0, 1, 0]}, "
+    "'keep': 'outside', 'frame': 'world'}], 'extent': 'point', 'filter': 'nearest', 'step': 0.3, "
+    "'preintegration': true,"
+    "   'gradient': 'sobel',"
     "   'gradient_opacity': [[2, 0.5], [3, 7]],"
     "   'silhouette': {'base': 0.5, 'strength': 3, 'exponent': 2},"
     "   'shading': {'model': 'phong', 'ambient': 0.2, 'diffuse': 0.3, 'specular': 0.4,"
@@ -72,7 +76,8 @@ static const char *const rich[] = {
     " 'output': {'file': 'out/picture.png', 'depth': 16, 'alpha': 'premultiplied'}}",
     "{'volumes': [{'file': 'a.raw', 'raw': {'dims': [2, 3, 4], 'offset': 0}, 'time': 0,"
     "   'channel': 0, 'transfer': {'points': [[0, '#ffffff', 0], [1, '#102030', 0.5]]}, 'shading': "
-    "true}],"
+    "true}, {'hypertexture': {'recipe': {'value': ['*', 'time', 'object']}, 'size': 8, 'type':"
+    "   'float32', 'seed': 3, 'time': 0.5, 'live': true, 'object': 'a.raw'}}],"
     " 'background': 'none', 'render': {'step_mm': 0.37},"
     " 'stereo': {'kind': 'red-blue', 'separation': 0}, 'animation': {'duration': 2}, 'wall': "
     "{'columns': 3, 'rows': 2, 'bezel': [0.04, 0.05]}, 'output': "
@@ -97,7 +102,10 @@ static void assert_same_volume(const struct pel_volume *a, const struct pel_volu
     assert_memory_equal(a->dims, b->dims, sizeof a->dims);
     assert_int_equal(a->type, b->type);
     assert_memory_equal(&a->world_from_voxel, &b->world_from_voxel, sizeof a->world_from_voxel);
-    assert_memory_equal(a->voxels, b->voxels, pel_volume_bytes(a));
+    if (a->voxels)
+        assert_memory_equal(a->voxels, b->voxels, pel_volume_bytes(a));
+    else
+        assert_null(b->voxels);
 }
 
 // Structs without pointers are compared byte by byte: both were zeroed before they were filled.

@@ -16,8 +16,8 @@ xdotool mouseup 1
 for _ in $(seq 31); do
     xdotool key z
 done
-# Turn, hide one and show it, reorder, another transfer function, shading, mixing.
-xdotool key Tab key v key v key Prior key t key l key m key bracketright
+# Turn, cut, hide one and show it, reorder, another transfer function, shading, mixing.
+xdotool key x key Tab key v key v key Prior key t key l key m key bracketright
 xdotool mousemove --window "$window" 80 60 click 4
 xdotool keydown Right sleep 0.2 keyup Right key ctrl+z key ctrl+y
 xdotool key ctrl+s key F12
@@ -33,6 +33,7 @@ python3 -c '
 import json
 scene = json.load(open("scene.json"))
 assert len(scene["volumes"]) == 2, scene
+assert "clip" in json.dumps(scene), "the cut was not saved"
 assert "mri" in json.dumps(scene["volumes"][0]), "reordering was not saved"
 ' || complain "scene.json is not what was made"
 exit $failed
