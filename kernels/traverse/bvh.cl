@@ -38,14 +38,17 @@ INLINE struct span node_span(__global const struct bvh_node *node, const struct 
 // elsewhere, and where there is none, it is empty and far away.
 INLINE struct span find_cluster(__constant struct part *part, __global const uchar *cells,
                                 const struct cursor *cursor, real from, mask asks) {
-    __global const struct bvh_node *nodes = BVH_NODES(cells);
+    // Links count from the part's own first node.
+    const int root = BVH_ROOT(cells, part);
+    __global const struct bvh_node *nodes = BVH_NODES(cells) + max(root, 0);
     struct span found = {(real)(FLT_MAX), (real)(FLT_MAX)};
     const bool backward[3] = {FIRST_LANE(cursor->dx) < 0.0f, FIRST_LANE(cursor->dy) < 0.0f,
                               FIRST_LANE(cursor->dz) < 0.0f};
     int stack[BVH_DEPTH_MAX + 2];
     int depth = 0;
-    stack[depth++] = BVH_ROOT(cells, part);
-    while (depth > 0 && stack[0] >= 0) {
+    if (root >= 0)
+        stack[depth++] = 0;
+    while (depth > 0) {
         const int n = stack[--depth];
         struct span span = node_span(&nodes[n], cursor);
         span.near = fmax(span.near, from);

@@ -77,7 +77,7 @@ static void test_slabs_and_skips(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_waves(true);
     const struct pel_renderer_options options = {
-        .reader = PEL_READER_BUFFER, .lanes = 1, .max_allocation_bytes = BRICK_VOXELS};
+        .reader = PEL_READER_BUFFER, .lanes = 1, .max_allocation_bytes = 2 * BRICK_VOXELS};
     struct pel_renderer *slabs = pel_renderer_create(&options);
     scene->render.mixing = PEL_MIX_ORDERED;
     pel_image_destroy(judge_render(slabs, scene, NULL, "ordered, slabs"));

@@ -97,20 +97,20 @@ static void test_edit(void **state) {
     pel_image_destroy(render(renderer, scene, &statistics));
     uint64_t few = statistics.bricks.active;
     pel_image_destroy(render(renderer, scene, &statistics));
-    assert_true(statistics.uploaded_bytes < 4928);
+    assert_true(statistics.uploaded_bytes < 9856);
 
     edge->value = 10;
     pel_image_destroy(judge_render(renderer, scene, &statistics, "more to be seen"));
     uint64_t many = statistics.bricks.active;
     assert_true(many > few);
     assert_int_equal(statistics.bricks.resident, many);
-    assert_true(statistics.uploaded_bytes >= (many - few) * 4928);
+    assert_true(statistics.uploaded_bytes >= (many - few) * 9856);
 
     edge->value = 100;
     pel_image_destroy(judge_render(renderer, scene, &statistics, "less to be seen"));
     assert_int_equal(statistics.bricks.active, few);
     // Nothing but tables and pages.
-    assert_true(scene_is_small() || statistics.uploaded_bytes < few * 4928);
+    assert_true(scene_is_small() || statistics.uploaded_bytes < few * 9856);
     pel_scene_destroy(scene);
     pel_renderer_destroy(renderer);
 }
@@ -126,7 +126,7 @@ static void test_too_large(void **state) {
     struct pel_image *expected = render(free_renderer, scene, &statistics);
     scene->render.bricks.pool = PEL_POOL_ON;
     pel_image_destroy(render(free_renderer, scene, &statistics));
-    uint64_t needed = (statistics.bricks.active + 1) * 4928;
+    uint64_t needed = (statistics.bricks.active + 1) * 9856;
     pel_renderer_destroy(free_renderer);
 
     scene->render.bricks.pool = PEL_POOL_AUTO;
