@@ -14,7 +14,7 @@ static struct pel_scene *scene_of_waves(bool tall) {
     struct pel_scene *scene = scene_create(small ? 12 : 32, small ? 8 : 24);
     const double colours[3][3] = {{1, 0.3, 0.1}, {0.2, 0.9, 0.3}, {0.2, 0.4, 1}};
     for (int k = 0; k < 3; k++) {
-        int dims[3] = {small ? 9 : 17, small ? 8 : 16, tall ? 24 : small ? 10 : 20};
+        int dims[3] = {small ? 9 : 17, small ? 8 : 16, tall ? 20 : small ? 10 : 20};
         if (tall)
             dims[0] = 9, dims[1] = 8;
         const double *c = colours[k];
