@@ -655,7 +655,7 @@ struct pel_volume_source {
         enum pel_voxel_type type;
         uint32_t seed;
         double time;
-        bool live;
+        bool live, wrap;
     } hypertexture;
     struct pel_volume *object; // that it grows on; shared
 };

@@ -3,6 +3,8 @@
 
 #include <stdio.h>
 
+#include "shared/recipe.h"
+
 static int skip_knob(enum pel_skip skip) {
     switch (skip) {
     case PEL_SKIP_NONE:
@@ -46,8 +48,10 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .live = world->live_count > 0,
         .probe = world->probe,
         .debug = world->bytes.debug != DEBUG_NONE && world->bytes.debug != DEBUG_TIME,
-        .table_global =
-            pel_world_bytes(world) + world->table_words * sizeof *world->tables > constant_bytes,
+        // Recipes are in constant memory, too.
+        .table_global = pel_world_bytes(world) + world->table_words * sizeof *world->tables +
+                            (size_t)world->live_count * sizeof(struct recipe) >
+                        constant_bytes,
     };
 }
 

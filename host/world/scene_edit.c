@@ -26,6 +26,7 @@ struct pel_volume *pel_volume_source_open(const struct pel_volume_source *source
                                                  .type = source->hypertexture.type,
                                                  .seed = source->hypertexture.seed,
                                                  .time = source->hypertexture.time,
+                                                 .wrap = source->hypertexture.wrap,
                                                  .object = source->object};
         return pel_volume_hypertexture(source->recipe, &options, source->hypertexture.live);
     }

@@ -47,7 +47,8 @@ static bool same_hypertexture(const struct pel_volume_source *a,
            a->hypertexture.type == b->hypertexture.type &&
            a->hypertexture.seed == b->hypertexture.seed &&
            a->hypertexture.time == b->hypertexture.time &&
-           a->hypertexture.live == b->hypertexture.live;
+           a->hypertexture.live == b->hypertexture.live &&
+           a->hypertexture.wrap == b->hypertexture.wrap;
 }
 
 // The scene's volume of the same voxels in the same place, or -1.
@@ -84,6 +85,7 @@ static struct pel_volume_source make_source(const struct pel_scene *scene,
     source.hypertexture.seed = wanted->bake.seed;
     source.hypertexture.time = wanted->bake.time;
     source.hypertexture.live = wanted->live;
+    source.hypertexture.wrap = wanted->bake.wrap;
     if (wanted->object >= 0)
         source.object = scene->volumes[scene->instances[wanted->object].volume];
     return source;

@@ -18,7 +18,7 @@ static const char *const generate_keys[] = {"comment", "kind",   "size", "spacin
                                             "type",    "second", NULL};
 
 static const char *const hypertexture_keys[] = {"comment", "recipe", "size",   "type", "seed",
-                                                "time",    "live",   "object", NULL};
+                                                "time",    "live",   "object", "wrap", NULL};
 
 static const char *const endian_names[] = {"little", "big", NULL};
 
@@ -144,6 +144,7 @@ static bool read_hypertexture(struct pel_volume_plan *plan, const struct pel_sce
         !pel_node_get_integer(node, "seed", 0, INT_MAX, &seed) ||
         !pel_node_get_number(node, "time", &time_range, &plan->bake.time) ||
         !pel_node_get_bool(node, "live", &plan->live) ||
+        !pel_node_get_bool(node, "wrap", &plan->bake.wrap) ||
         !pel_node_get_text(node, "object", &plan->object_name))
         return false;
     plan->bake.seed = (uint32_t)seed;
@@ -229,6 +230,7 @@ static void write_hypertexture(struct pel_scene_writer *writer, json_t *volume,
     pel_write_number(writer, object, "seed", source->hypertexture.seed, 0);
     pel_write_number(writer, object, "time", source->hypertexture.time, 0);
     pel_write_bool(writer, object, "live", source->hypertexture.live, false);
+    pel_write_bool(writer, object, "wrap", source->hypertexture.wrap, false);
     if (source->object)
         pel_write_text(writer, object, "object", name_of(writer->scene, source->object));
 }

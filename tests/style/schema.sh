@@ -97,7 +97,7 @@ for table, names in tables.items():
         check(frozenset(names) in known, table, "is no enumeration of the schema:", names)
 
 # Scenes and examples follow the schema.
-scenes = {path: json.load(open(path)) for path in glob.glob("scenes/*.json") if not path.endswith("schema.json")}
+scenes = {path: json.load(open(path)) for path in glob.glob("scenes/*.json") + glob.glob("scenes/thesis/*.json") if not path.endswith("schema.json")}
 check(len(scenes) >= 7, "only", len(scenes), "scenes were found")
 for number, text in enumerate(re.findall(r"```json\n(.*?)```", readme, flags=re.S)):
     scenes["README.md example %d" % number] = json.loads(text)
