@@ -43,9 +43,11 @@ INLINE struct mixture mix_begin(void) {
 #if MIXING_WINNER
 // The part takes the place of the one before where it ranks higher.
 INLINE void mix_compete(struct mixture *mixture, real rank, real r, real g, real b, real depth) {
-    // The first that is there wins. The least rank in the mixture would see to that, but llvmpipe takes
-    // no rank for greater than it.
-    const mask wins = (MASK(mixture->depth <= 0.0f) | MASK(rank > mixture->rank)) & MASK(depth > 0.0f);
+    mask wins = MASK(rank > mixture->rank) & MASK(depth > 0.0f);
+#if MIXING == MIXING_PRIORITY
+    // The first that is there wins. The least rank would see to that, but llvmpipe takes none for greater.
+    wins |= MASK(mixture->depth <= 0.0f) & MASK(depth > 0.0f);
+#endif
     mixture->rank = CHOOSE(mixture->rank, rank, wins);
     mixture->r = CHOOSE(mixture->r, r, wins);
     mixture->g = CHOOSE(mixture->g, g, wins);
