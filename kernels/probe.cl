@@ -1,7 +1,7 @@
 // probe.cl - follows the ray through one pixel's centre and writes down what it meets.
 //
 // The ray loop is that of a picture, compiled for one ray; it hands over each sample that it takes.
-// Included at the end of render.cl.
+// Included by render.cl, at its end.
 #ifndef PROBE_CL
 #define PROBE_CL
 

@@ -5,6 +5,7 @@
 // nearer children first, with one short stack for the packet: a node is entered while some lane may
 // find a nearer cluster below it. A cursor keeps where its ray leaves the cluster again, and until
 // then there is nothing to search.
+// Included by span.cl.
 #ifndef BVH_CL
 #define BVH_CL
 
