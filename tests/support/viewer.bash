@@ -12,7 +12,7 @@ need_device
 export PELLUCID_DEVICE=${PELLUCID_DEVICE:-cpu} LIBGL_ALWAYS_SOFTWARE=1
 
 # Xvfb takes the first free number and says which.
-Xvfb -displayfd 3 -screen 0 1280x960x24 -nolisten tcp 3>display >/dev/null 2>xvfb.log &
+Xvfb -displayfd 3 -screen 0 1280x960x24 -nolisten tcp -noreset 3>display >/dev/null 2>xvfb.log &
 xvfb=$!
 trap 'kill "$xvfb" 2>/dev/null; wait "$xvfb" 2>/dev/null; rm -rf "$folder"' EXIT
 for _ in $(seq 100); do
