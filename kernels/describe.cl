@@ -108,6 +108,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, lamp_count);
     *out++ = OFFSET(struct world, debug);
     *out++ = OFFSET(struct world, medium_count);
+    *out++ = OFFSET(struct world, balls);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
     *out++ = OFFSET(struct world, cuts);

@@ -1,9 +1,9 @@
 // render.cl - the only sampled ray loop.
 //
 // A work-item follows one packet of rays through all parts that they cross. Sample i of a ray lies at
-// t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. A ray is cut
-// into spans with a constant set of active parts; the cost of a sample follows that set. Each part has a
-// cursor; after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
+// t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. The cost of a
+// sample follows the parts that the packet is in (active.cl). Each part has a cursor; after a sample in which
+// nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
 #include "mix.cl"
 #include "model.cl"
@@ -60,6 +60,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
     mask alive = MASK(i < last);
     struct active active;
     active.until = CAPACITY == 1 ? last : i;
+    active.count = active.joined = 0;
 
 #if MODELS
     struct gathered gathered;
@@ -76,7 +77,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         active.count = crossing->count;
 #elif CAPACITY > 1
         if (any_lane(alive & MASK(i >= active.until)))
-            begin_span(&active, crossing, i, alive);
+            join_active(world, cells, &active, crossing, i, alive);
 #endif
         bool seen = false;
         struct mixture mixture = mix_begin();

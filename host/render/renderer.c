@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -20,18 +19,18 @@
 #include "render/residency.h"
 #include "render/resolve.h"
 #include "render/target.h"
+#include "render/tiles.h"
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
 #include "world/model.h"
-
-static const double batch_default_ms = 150; // of a batch of tiles, unless the caller says otherwise
 
 struct pel_renderer {
     struct pel_device *device;
     struct pel_renderer_options options;
     struct pel_residency residency;
     struct pel_kernel_cache kernels;
+    struct pel_memo memo;
     struct pel_mirror world, tables;
     struct pel_occupancy occupancy;
     struct pel_resolve resolve;
@@ -39,19 +38,12 @@ struct pel_renderer {
     struct pel_target target;
     struct pel_buffer *sample_counts;
     size_t sample_counts_bytes;
-    double tiles_per_ms; // as the last frame ran; 0 = unknown
-    float *tile_ms;      // what each tile takes, while a debug view asks for it
+    struct pel_pace pace;
 };
-
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 // Time since *mark, which moves to now.
 static double lap_ms(double *mark) {
-    double now = now_ms(), elapsed = now - *mark;
+    double now = pel_clock_ms(), elapsed = now - *mark;
     *mark = now;
     return elapsed;
 }
@@ -71,25 +63,6 @@ static bool grow_buffer(struct pel_buffer **buffer, size_t *have, size_t bytes,
 
 // ---- One frame ---------------------------------------------------------------------------------
 
-// How a picture's tiles are handed out. A work-group may span several tiles, so launches are
-// rounded up to whole groups; the tiles beyond the picture's end do nothing.
-struct extent {
-    size_t tiles, packets_per_tile, group, tiles_per_group;
-};
-
-static struct extent picture_extent(const struct pel_render_settings *settings, int lanes,
-                                    size_t group) {
-    size_t tiles_x = ((size_t)settings->width + TILE_PX - 1) / TILE_PX;
-    size_t tiles_y = ((size_t)settings->height + TILE_PX - 1) / TILE_PX;
-    size_t packets = TILE_PX * TILE_PX / (size_t)lanes;
-    return (struct extent){tiles_x * tiles_y, packets, group,
-                           group > packets ? group / packets : 1};
-}
-
-static size_t round_up(size_t value, size_t multiple) {
-    return (value + multiple - 1) / multiple * multiple;
-}
-
 // Refuses a frame whose voxels and picture together do not fit, before anything is allocated.
 static bool check_memory(const struct pel_layout *layout, const struct pel_layout_limits *limits,
                          uint64_t frame_bytes) {
@@ -106,9 +79,6 @@ static bool check_memory(const struct pel_layout *layout, const struct pel_layou
     return true;
 }
 
-// Where the kernel finds what changes from launch to launch.
-enum { LIGHT_ARGUMENT = 2, FIRST_TILE_ARGUMENT = 4, RAY_ARGUMENT = 6 };
-
 // Binds everything but where light goes, the first tile, and the ray's number, in the order of the
 // kernel's parameters. A kernel has an atlas for each class in `voxels` only.
 static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel,
@@ -116,8 +86,8 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
     int index = 0;
     bool good = pel_kernel_set_buffer(kernel, index++, renderer->world.buffer) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer) &&
-                pel_kernel_set_buffer(kernel, LIGHT_ARGUMENT + 1, renderer->sample_counts);
-    index = FIRST_TILE_ARGUMENT + 1; // what is between is set for each frame and each batch
+                pel_kernel_set_buffer(kernel, PEL_LIGHT_ARGUMENT + 1, renderer->sample_counts);
+    index = PEL_FIRST_TILE_ARGUMENT + 1; // what is between is set for each frame and each batch
     good = good && pel_kernel_set_buffer(kernel, index++, pel_occupancy_map(&renderer->occupancy));
     if (variant->supersampling) {
         index++; // the ray's number is set for each pass
@@ -126,90 +96,39 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
     return good && pel_residency_bind(&renderer->residency, kernel, index, variant->voxels);
 }
 
-// Runs the kernel over `count` tiles from `first` on and waits for it.
-static bool run_batch(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                      const struct extent *extent, size_t first, size_t count) {
-    size_t items = round_up(count, extent->tiles_per_group) * extent->packets_per_tile;
-    return pel_kernel_set_u32(kernel, FIRST_TILE_ARGUMENT, (uint32_t)first) &&
-           pel_kernel_launch(kernel, items, extent->group) && pel_device_finish(renderer->device);
-}
-
-// Which of how many times the kernel runs over the tiles.
-struct pass {
-    int number, count;
-};
-
-// Runs the kernel over all tiles, in batches.
-static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                      const struct extent *extent, const struct pel_render_options *options,
-                      struct pass pass) {
-    enum { FIRST_BATCH = 64 };
-    double start = now_ms(), mark = start;
-    double batch_ms = options && options->batch_ms > 0 ? options->batch_ms : batch_default_ms;
-    // The frame before may have had cheaper tiles, so the first batch only looks how these are.
-    double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms / 4 : FIRST_BATCH;
-    for (size_t tile = 0; tile < extent->tiles;) {
-        size_t left = extent->tiles - tile;
-        size_t count = batch < 1 ? 1 : batch < (double)left ? (size_t)batch : left;
-        if (renderer->tile_ms)
-            count = 1;
-        count = round_up(count, extent->tiles_per_group);
-        if (count > left)
-            count = left;
-        // A first launch warms up what it needs, and should not count.
-        if (renderer->tile_ms && tile == 0 && !run_batch(renderer, kernel, extent, 0, count))
-            return false;
-        double begin_ms = now_ms();
-        if (!run_batch(renderer, kernel, extent, tile, count))
-            return false;
-        for (size_t i = 0; renderer->tile_ms && i < count; i++)
-            renderer->tile_ms[tile + i] = (float)((now_ms() - begin_ms) / (double)count);
-        tile += count;
-        double finished = pass.number + (double)tile / (double)extent->tiles;
-        if (options && options->progress &&
-            !options->progress(finished / pass.count, options->user))
-            return pel_fail(PEL_ERROR_ARGUMENT, "the frame was abandoned");
-        // The next batch aims at the set time, but one measurement makes it grow fourfold at most.
-        double per_ms = (double)count / fmax(lap_ms(&mark), 0.05);
-        batch = fmin(per_ms * batch_ms, 4.0 * (double)count);
-    }
-    renderer->tiles_per_ms = (double)extent->tiles / fmax(now_ms() - start, 0.05);
-    return true;
-}
-
 // Runs the kernel for one ray of each pixel after the other, and adds them up.
 static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                     const struct pel_scene *scene, const struct extent *extent,
+                     const struct pel_scene *scene, const struct pel_tiling *tiling,
                      const struct pel_render_options *options,
                      struct pel_render_statistics *statistics) {
     const struct pel_supersampling *supersampling = &scene->render.supersampling;
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     bool adaptive = (float)supersampling->adaptive > 0; // as the kernels read it
     int n = supersampling->n > 1 ? supersampling->n : 1;
-    struct pass pass = {0, n * n + adaptive};
+    struct pel_pass pass = {0, n * n + adaptive};
     double slowest = INFINITY; // tiles per millisecond
     statistics->rays = pixels * (uint64_t)(n * n);
     if (adaptive) {
         uint64_t refined;
-        if (!pel_kernel_set_u32(kernel, RAY_ARGUMENT, RAY_CENTRE) ||
-            !run_tiles(renderer, kernel, extent, options, pass) ||
+        if (!pel_kernel_set_u32(kernel, PEL_RAY_ARGUMENT, RAY_CENTRE) ||
+            !pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options, pass) ||
             !pel_resolve_refine(&renderer->resolve, renderer->world.buffer, pixels, &refined))
             return false;
         statistics->rays = pixels + refined * (uint64_t)(n * n);
         statistics->refined = (double)refined / (double)pixels;
-        slowest = renderer->tiles_per_ms;
+        slowest = renderer->pace.tiles_per_ms;
         pass.number++;
     }
     for (int ray = 0; ray < n * n; ray++, pass.number++) {
-        if (!pel_kernel_set_u32(kernel, RAY_ARGUMENT, (uint32_t)ray) ||
-            !run_tiles(renderer, kernel, extent, options, pass) ||
+        if (!pel_kernel_set_u32(kernel, PEL_RAY_ARGUMENT, (uint32_t)ray) ||
+            !pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options, pass) ||
             !pel_resolve_add(&renderer->resolve, renderer->world.buffer, renderer->target.buffer,
                              pixels, ray))
             return false;
-        slowest = fmin(slowest, renderer->tiles_per_ms);
+        slowest = fmin(slowest, renderer->pace.tiles_per_ms);
     }
     // The next frame may begin with all pixels where this one ended with few.
-    renderer->tiles_per_ms = slowest;
+    renderer->pace.tiles_per_ms = slowest;
     return pel_device_finish(renderer->device);
 }
 
@@ -245,8 +164,9 @@ static size_t choose_group(const struct pel_renderer *renderer, const struct pel
 // Sends what changed and gives back the kernel, ready to run; NULL on failure.
 static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pel_scene *scene,
                                   const struct pel_layout *layout, const struct pel_world *world,
-                                  struct extent *extent, struct pel_render_statistics *statistics) {
-    double mark = now_ms();
+                                  struct pel_tiling *tiling,
+                                  struct pel_render_statistics *statistics) {
+    double mark = pel_clock_ms();
     struct pel_device *device = renderer->device;
     int lanes = statistics->lanes;
     struct pel_variant variant =
@@ -259,9 +179,9 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         return NULL;
     statistics->build_ms = lap_ms(&mark);
 
-    *extent = picture_extent(&scene->render, lanes, choose_group(renderer, kernel));
+    *tiling = pel_tiles_plan(&scene->render, lanes, choose_group(renderer, kernel));
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
-    size_t packets = (extent->tiles + extent->tiles_per_group) * extent->packets_per_tile;
+    size_t packets = (tiling->tiles + tiling->tiles_per_group) * tiling->packets_per_tile;
     if (!pel_residency_update(&renderer->residency, scene, layout, world) ||
         !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
                            sizeof world->bytes.camera, "the scene", NULL) ||
@@ -286,26 +206,27 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
                                  pel_buffer_bytes(renderer->residency.ranges);
         statistics->bricks = renderer->occupancy.hierarchy.statistics;
     }
-    statistics->work_group = (int)extent->group;
+    statistics->work_group = (int)tiling->group;
     statistics->kernel = pel_kernel_describe(kernel);
     return kernel;
 }
 
 // Runs the kernel as often as a picture needs.
 static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                       const struct pel_scene *scene, const struct extent *extent,
+                       const struct pel_scene *scene, const struct pel_tiling *tiling,
                        bool supersampling, const struct pel_render_options *options,
                        struct pel_render_statistics *statistics) {
     statistics->rays = (uint64_t)scene->render.width * (uint64_t)scene->render.height;
     statistics->refined = 1;
     if (supersampling)
-        return run_rays(renderer, kernel, scene, extent, options, statistics);
+        return run_rays(renderer, kernel, scene, tiling, options, statistics);
     if (scene->render.debug == PEL_DEBUG_TIME) {
-        renderer->tile_ms = pel_allocate(extent->tiles, sizeof *renderer->tile_ms);
-        if (!renderer->tile_ms)
+        renderer->pace.tile_ms = pel_allocate(tiling->tiles, sizeof *renderer->pace.tile_ms);
+        if (!renderer->pace.tile_ms)
             return false;
     }
-    return run_tiles(renderer, kernel, extent, options, (struct pass){0, 1});
+    return pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options,
+                         (struct pel_pass){0, 1});
 }
 
 // Makes a debug view's picture of what came from the device.
@@ -313,38 +234,38 @@ static bool paint(struct pel_image *image, const struct pel_renderer *renderer, 
                   const struct pel_render_options *options,
                   struct pel_render_statistics *statistics) {
     size_t tiles_x = ((size_t)image->width + TILE_PX - 1) / TILE_PX;
-    for (int y = 0; renderer->tile_ms && y < image->height; y++)
+    for (int y = 0; renderer->pace.tile_ms && y < image->height; y++)
         for (int x = 0; x < image->width; x++)
             image->rgba[4 * ((size_t)y * (size_t)image->width + (size_t)x)] =
-                renderer->tile_ms[(size_t)(y / TILE_PX) * tiles_x + (size_t)(x / TILE_PX)];
+                renderer->pace.tile_ms[(size_t)(y / TILE_PX) * tiles_x + (size_t)(x / TILE_PX)];
     return pel_debug_paint(image, view, options ? options->numbers : NULL, &statistics->debug);
 }
 
 // Runs the kernel and brings the picture here. The caller owns it.
 static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                             const struct pel_scene *scene, const struct extent *extent,
+                             const struct pel_scene *scene, const struct pel_tiling *tiling,
                              bool supersampling, const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
-    double mark = now_ms();
+    double mark = pel_clock_ms();
     struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
         return NULL;
     }
     struct pel_buffer *light = supersampling ? renderer->resolve.light : renderer->target.buffer;
-    bool good = pel_kernel_set_buffer(kernel, LIGHT_ARGUMENT, light) &&
-                run_passes(renderer, kernel, scene, extent, supersampling, options, statistics);
+    bool good = pel_kernel_set_buffer(kernel, PEL_LIGHT_ARGUMENT, light) &&
+                run_passes(renderer, kernel, scene, tiling, supersampling, options, statistics);
     statistics->render_ms = lap_ms(&mark);
     good = pel_target_end(&renderer->target, image, good) &&
            (scene->render.debug == PEL_DEBUG_NONE ||
             paint(image, renderer, scene->render.debug, options, statistics));
-    free(renderer->tile_ms);
-    renderer->tile_ms = NULL;
+    free(renderer->pace.tile_ms);
+    renderer->pace.tile_ms = NULL;
     if (!good) {
         pel_image_destroy(image);
         return NULL;
     }
-    count_samples(renderer, extent->tiles * extent->packets_per_tile, statistics);
+    count_samples(renderer, tiling->tiles * tiling->packets_per_tile, statistics);
     statistics->download_ms = lap_ms(&mark);
     return image;
 }
@@ -364,7 +285,7 @@ static struct pel_image *render_background(const struct pel_world *world) {
 static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
                  struct pel_layout *layout, struct pel_world *world,
                  struct pel_render_statistics *statistics) {
-    double mark = now_ms();
+    double mark = pel_clock_ms();
     const struct pel_device_info *info = pel_device_describe(renderer->device);
     *statistics = (struct pel_render_statistics){0};
     if (!pel_settings_check(scene))
@@ -373,7 +294,7 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
         pel_residency_limits(renderer->device, renderer->options.max_allocation_bytes);
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     if (!pel_layout_plan(layout, scene, &limits, renderer->options.reader, info->reader) ||
-        !pel_world_build(world, scene, layout))
+        !pel_world_build(world, scene, layout, &renderer->memo))
         return false;
     size_t pixel_bytes = sizeof(float4) + (world->supersampling ? PEL_RESOLVE_BYTES : 0);
     if (!check_memory(layout, &limits, pixels * pixel_bytes)) {
@@ -406,11 +327,11 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     if (world.bytes.part_count == 0) {
         image = render_background(&world);
     } else {
-        struct extent extent;
-        struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &extent, statistics);
+        struct pel_tiling tiling;
+        struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &tiling, statistics);
         if (kernel)
             image =
-                run(renderer, kernel, &shown, &extent, world.supersampling, options, statistics);
+                run(renderer, kernel, &shown, &tiling, world.supersampling, options, statistics);
     }
     pel_world_finish(&world);
     const struct pel_device_info *info = pel_device_describe(renderer->device);
@@ -441,10 +362,10 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
         return false;
     statistics.lanes = 1;
     world.probe = true;
-    struct extent extent;
+    struct pel_tiling tiling;
     struct pel_kernel *kernel = NULL;
     bool good = world.bytes.part_count == 0 ||
-                (kernel = prepare(renderer, &seen, &layout, &world, &extent, &statistics)) != NULL;
+                (kernel = prepare(renderer, &seen, &layout, &world, &tiling, &statistics)) != NULL;
     const struct pel_probe_inputs inputs = {
         .device = renderer->device,
         .render = kernel,
@@ -487,6 +408,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     if (!renderer)
         return;
     pel_residency_finish(&renderer->residency);
+    pel_memo_finish(&renderer->memo);
     pel_mirror_finish(&renderer->world);
     pel_mirror_finish(&renderer->tables);
     pel_occupancy_finish(&renderer->occupancy);

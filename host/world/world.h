@@ -4,6 +4,7 @@
 
 #include "shared/recipe.h"
 #include "world/layout.h"
+#include "world/memo.h"
 
 // One frame's constant data, and which kernel it needs.
 struct pel_world {
@@ -35,11 +36,12 @@ struct pel_world {
     bool depth; // strengths are optical depths: more than one part, and extinctions add
 };
 
-// Fills a world from a scene whose volumes lie as `layout` says. Fails (MEMORY, ARGUMENT) on
+// Fills a world from a scene whose volumes lie as `layout` says. Tables that are in `memo` from a
+// frame before are not made anew. Fails (MEMORY, ARGUMENT) on
 // settings that cannot be: a camera without direction, a singular placement, more parts than
 // WORLD_PART_MAX.
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
-                     const struct pel_layout *layout);
+                     const struct pel_layout *layout, struct pel_memo *memo);
 void pel_world_finish(struct pel_world *world);
 
 // How many of the first bytes of world->bytes there are for a kernel to read.

@@ -106,12 +106,13 @@ struct world {
     i32 lamp_count;
     i32 debug; // one of DEBUG_*
     i32 medium_count; // instances that are mixed
+    float4 balls[WORLD_PART_MAX]; // around the box of each part: middle and radius
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
     float4 cuts[WORLD_CUT_MAX]; // only as many as there are reach the device
 };
 
-SHARED_ASSERT(sizeof(struct world) == 208 + 48 * LAMP_MAX + 432 * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
+SHARED_ASSERT(sizeof(struct world) == 208 + 16 * WORLD_PART_MAX + 48 * LAMP_MAX + 432 * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
               world_size);
 
 #endif

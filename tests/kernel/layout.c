@@ -93,6 +93,7 @@ static const struct {
     AT(world, lamp_count),
     AT(world, debug),
     AT(world, medium_count),
+    AT(world, balls),
     AT(world, lamps),
     AT(world, parts),
     AT(world, cuts),
