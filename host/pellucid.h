@@ -207,8 +207,9 @@ struct pel_generate_options {
 // Kinds: "sphere" (signed distance field), "box", "shells", "c60" (electron density of a
 // buckyball from its 60 atom positions, after Romero 2009), "hydrogen" (an orbital),
 // "marschner-lobb" (Marschner & Lobb 1994), "shepp-logan" (the 3-D head), "head-ct" and "head-mri"
-// (one synthetic head, the MRI displaced by a known rigid transform), "head-pair" (the CT, or with
-// `second` the MRI). The list ends with NULL.
+// (one synthetic head, the MRI displaced by a known rigid transform), "head-labels" (its tissues: 1
+// skin, 2 muscle, 3 bone, 4 marrow, 5 teeth, 6 fluid, 7 grey and 8 white matter, 9 eye, 10 lens),
+// "head-pair" (the CT, or with `second` the MRI). The list ends with NULL.
 PEL_API const char *const *pel_generator_names(void);
 PEL_API struct pel_volume *pel_volume_generate(const char *kind,
                                                const struct pel_generate_options *options);
