@@ -19,8 +19,8 @@
 #define WORLD_PART_MAX 64
 
 // Rows of clip planes and boxes: of 32 volumes, 8 boxes of three rows each and 8 of the scene. And of masks: 32 ranges
-// of values of each, and a matrix between each part and one of its mask's.
-#define WORLD_CUT_MAX (32 * 16 * 3 + 32 * 32 + 3 * 32 * 32)
+// of values for each part, and a matrix between each part and one of its mask's.
+#define WORLD_CUT_MAX (32 * 16 * 3 + 32 * WORLD_PART_MAX + 3 * 32 * 32)
 
 // The ray of picture-plane coordinates (u, v), in -1..1 upwards and to the right, starts at
 // eye + u * eye_right + v * eye_up and runs along forward + u * right + v * up.
