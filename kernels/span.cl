@@ -4,8 +4,15 @@
 
 #include "shared/probe.h"
 #include "clip.cl"
-#include "traverse/cursor.cl"
+#include "traverse/leap.cl"
+#include "shared/grid.h"
 
+#ifndef MASKED
+#define MASKED 0 // 1: where some volume is shown, another one decides
+#endif
+#if MASKED
+#include "mask.cl"
+#endif
 #if SKIP != SKIP_NONE || POOL
 #include "occupancy.cl"
 #endif
@@ -39,8 +46,8 @@
 #define MODELS 0 // what else than absorption, gathered front to back, occurs: MODELS_*
 #endif
 
-// With room for one part only, the compiler must see that there is only one, or it keeps the cursor in
-// memory instead of registers.
+// With room for one part only, the compiler must see that there is only one, or it keeps the cursor
+// in memory instead of registers.
 #define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
 #define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
 
@@ -73,7 +80,8 @@ struct crossing {
     integer mirror; // what the numbers of a sample front to back and back to front add up to
 #endif
 #if MIXING == MIXING_ORDERED
-    // Where samples 0 of each lie and how far apart they are, in steps of the world from its sample 0.
+    // Where samples 0 of each lie and how far apart they are, in steps of the world from its sample
+    // 0.
     real starts[CAPACITY];
     float strides[CAPACITY];
 #endif
@@ -134,6 +142,17 @@ INLINE void place_in_order(struct crossing *crossing, int c, int entry) {
 }
 #endif
 
+// Takes the cursor of a part on from sample i, in which none of the lanes `present` there has shown anything.
+INLINE void pass_over(__constant struct part *part, __global const uchar *cells,
+                      struct cursor *cursor, integer i, mask present) {
+#if MIXING == MIXING_ORDERED
+    const integer next = cursor_leap(part, cells, cursor, cursor->next);
+    cursor->next = CHOOSE(cursor->next, next, present);
+#else
+    cursor->next = cursor_leap(part, cells, cursor, i + 1);
+#endif
+}
+
 // Finds the parts that the packet crosses and where each ray's samples begin.
 INLINE void find_crossing(__constant struct world *world, __global const uchar *cells,
                           const struct ray *ray, struct crossing *crossing) {
@@ -182,8 +201,8 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
 #if MODELS & MODELS_BACKWARD
         cursor_mirror(&cursor, crossing->mirror);
 #endif
-        crossing->possible += CHOOSE((integer)(0), cursor.end - cursor.first,
-                                     MASK(cursor.first < cursor.end));
+        crossing->possible +=
+            CHOOSE((integer)(0), cursor.end - cursor.first, MASK(cursor.first < cursor.end));
 #if !LATE_CURSORS
         if (any_lane(MASK(cursor.first < cursor.end)))
             cursor.next = cursor_leap(part, cells, &cursor, cursor.first);

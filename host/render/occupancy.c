@@ -9,19 +9,13 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/memory.h"
 #include "shared/grid.h"
 #include "world/bricks.h"
+#include "world/mask.h"
 
 enum { GROUP = 16 };
-
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device, size_t cells) {
     if (occupancy->cells && occupancy->scratch && cells <= occupancy->cell_count)
@@ -63,7 +57,14 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
         copy->model = part->model;
         copy->surface_count = part->surface_count;
         copy->surface_values = part->surface_values;
+        copy->mask_cuts = part->mask_cuts;
+        copy->mask_count = part->mask_count;
+        copy->mask_part = part->mask_part;
+        copy->mask_inverted = part->mask_inverted;
+        copy->mask_range_count = part->mask_range_count;
     }
+    if (world->masked)
+        key->masks = pel_mask_hash(world);
 }
 
 static bool set_pass(struct pel_occupancy *occupancy, const struct pel_buffer *in,
@@ -160,6 +161,12 @@ static bool fill_pool(struct pel_occupancy *occupancy, const struct pel_world *w
         for (size_t i = 0; i < cells[0] * cells[1] * cells[2]; i++)
             active[part->ranges + i] |= !empty[part->cells + i];
     }
+    // Masks are read wherever samples are.
+    for (int p = world->bytes.part_count; good && p < world->part_total; p++) {
+        size_t cells[3];
+        pel_world_cells(world, p, cells);
+        memset(active + world->bytes.parts[p].ranges, 1, cells[0] * cells[1] * cells[2]);
+    }
     statistics->size = world->cell_side;
     statistics->total = pages;
     for (size_t i = 0; good && i < pages; i++)
@@ -193,7 +200,7 @@ static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *
                             double start_ms) {
     uint8_t *active = pel_allocate(world->cell_count, 1);
     bool good = active && pel_buffer_read(occupancy->cells, 0, world->cell_count, active);
-    double activity_ms = now_ms() - start_ms;
+    double activity_ms = pel_clock_ms() - start_ms;
     good = good && pel_hierarchy_build(&occupancy->hierarchy, device, world, active, bricks);
     occupancy->hierarchy.statistics.activity_ms = activity_ms;
     free(active);
@@ -207,7 +214,7 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
                           enum pel_skip skip) {
     if ((skip == PEL_SKIP_NONE && !world->pool) || world->bytes.part_count == 0)
         return make_room(occupancy, device, 1);
-    double start_ms = now_ms();
+    double start_ms = pel_clock_ms();
     bool changed = false;
     if (!occupancy->kernel)
         occupancy->kernel = pel_kernel_sibling(render, "occupancy");

@@ -3,18 +3,11 @@
 #include "render/tiles.h"
 
 #include <math.h>
-#include <time.h>
 
 #include "base/error.h"
 #include "shared/variant.h"
 
 static const double batch_default_ms = 150; // of a batch of tiles, unless the caller says otherwise
-
-double pel_clock_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 static size_t round_up(size_t value, size_t multiple) {
     return (value + multiple - 1) / multiple * multiple;

@@ -24,9 +24,6 @@ struct pel_pass {
     int number, count;
 };
 
-// Milliseconds of a clock that only goes forward.
-double pel_clock_ms(void);
-
 struct pel_tiling pel_tiles_plan(const struct pel_render_settings *settings, int lanes,
                                  size_t group);
 

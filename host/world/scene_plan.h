@@ -14,7 +14,8 @@
 struct pel_camera_plan {
     struct pel_scene_node node;
     const char *view; // borrowed; NULL takes the default
-    int fit;          // the instance to fit into the picture; -1 = all visible ones
+    int fit;          // the instance to fit into the picture; -1 = all that are not hidden
+    bool fit_visible; // only what can be seen of them
     struct pel_camera given;
 };
 
@@ -75,6 +76,12 @@ bool pel_scene_read_material(struct pel_material *material, const struct pel_sce
 // Up to PEL_CLIP_MAX planes and boxes, in the world unless they are a volume's.
 bool pel_scene_read_clips(const struct pel_scene_node *object, bool of_scene, int *count,
                           struct pel_clip clips[PEL_CLIP_MAX]);
+
+// What another volume's values leave of one: first which values, then, when all names are known,
+// which volume, and at last that no mask depends on itself.
+bool pel_scene_read_mask(struct pel_mask *mask, const struct pel_scene_node *volume);
+bool pel_scene_find_mask(struct pel_scene *scene, const struct pel_scene_plan *plan, int self);
+bool pel_scene_check_masks(const struct pel_scene *scene, const struct pel_scene_plan *plan);
 
 // A colour by name, as #rrggbb[aa] or as 3 or 4 numbers; without an alpha, rgba[3] stays.
 bool pel_scene_read_colour(double rgba[4], const struct pel_scene_node *object, const char *key);
