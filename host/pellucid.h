@@ -905,9 +905,9 @@ struct pel_render_statistics {
     // Of two eyes; all of the above is then their sum.
     struct {
         double separation_mm, convergence_mm; // as they were used
-        double eye_ms[2];                     // the whole frame of each, the first one's first
-        double compose_ms;
-        uint64_t eye_samples[2];
+        double compose_ms;                    // putting the pictures together
+        uint64_t eye_samples[2];              // of the first eye, and of the second; an interlaced
+                                              // picture's are all counted as the first one's
     } stereo;
 };
 
@@ -972,9 +972,8 @@ PEL_API bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_
                                 int y, struct pel_probe *probe);
 PEL_API void pel_probe_finish(struct pel_probe *probe);
 
-// Renders the pictures of both eyes, each of the scene's size; the second one uploads nothing but
-// its camera. A scene without stereo gives the same picture twice. The caller owns both; on failure
-// there is neither.
+// Renders the pictures of both eyes, each of the scene's size, in one go. A scene without stereo
+// gives the same picture twice. The caller owns both; on failure there is neither.
 PEL_API bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_scene *scene,
                                       const struct pel_render_options *options,
                                       struct pel_render_statistics *statistics,

@@ -17,13 +17,34 @@
 #define RAY_ARGUMENTS
 #endif
 
+// The index of the first pixel of an eye's picture.
+#if EYES == EYES_BOTH
+#define FIRST_PIXEL(world, eye) ((eye) * (world)->width * (world)->height)
+#else
+#define FIRST_PIXEL(world, eye) 0
+#endif
+
 // Premultiplied colour and opacity of each lane, accumulated front to back.
 struct light {
     real r, g, b, a;
 };
 
+// Rays through places x and y of the picture of an eye, or of both, whose packet's first pixel is (left, top).
+INLINE struct ray eye_rays(__constant struct world *world, int eye, int left, int top, real x, real y) {
+#if EYES == EYES_WOVEN
+    const struct ray first = camera_ray(world, &world->camera, x, y);
+    const struct ray second = camera_ray(world, &world->second, x, y);
+    const integer sum = (left + LANE_X) * world->weave_x + (top + LANE_Y) * world->weave_y;
+    return choose_rays(&first, &second, MASK((sum & 1) != 0));
+#elif EYES == EYES_BOTH
+    return camera_ray(world, eye ? &world->second : &world->camera, x, y);
+#else
+    return camera_ray(world, &world->camera, x, y);
+#endif
+}
+
 // The rays of the packet whose first pixel is (left, top).
-INLINE struct ray pixel_rays(__constant struct world *world, int left, int top RAY_PARAMETERS) {
+INLINE struct ray pixel_rays(__constant struct world *world, int eye, int left, int top RAY_PARAMETERS) {
     const real x = TO_REAL(left + LANE_X), y = TO_REAL(top + LANE_Y);
 #if SUPERSAMPLING || JITTER
     float xs[LANES], ys[LANES], phases[LANES], runs[LANES];
@@ -45,7 +66,7 @@ INLINE struct ray pixel_rays(__constant struct world *world, int left, int top R
         xs[lane] = number == RAY_CENTRE ? 0.5f : (float)place.x * 0x1p-24f;
         ys[lane] = number == RAY_CENTRE ? 0.5f : (float)place.y * 0x1p-24f;
         const bool inside = x_px < world->width && y_px < world->height;
-        const int pixel = inside ? y_px * world->width + x_px : 0;
+        const int pixel = inside ? FIRST_PIXEL(world, eye) + y_px * world->width + x_px : 0;
         runs[lane] = inside && (all || refined[pixel]) ? 1.0f : 0.0f;
 #endif
     }
@@ -53,7 +74,8 @@ INLINE struct ray pixel_rays(__constant struct world *world, int left, int top R
 #define Y_IN_PIXEL(lane) ys[lane]
 #define PHASE(lane) phases[lane]
 #define RUNS(lane) runs[lane]
-    struct ray ray = camera_ray(world, x + ALL_LANES(X_IN_PIXEL), y + ALL_LANES(Y_IN_PIXEL));
+    struct ray ray =
+        eye_rays(world, eye, left, top, x + ALL_LANES(X_IN_PIXEL), y + ALL_LANES(Y_IN_PIXEL));
 #if JITTER
     ray.phase = ALL_LANES(PHASE);
 #endif
@@ -62,7 +84,7 @@ INLINE struct ray pixel_rays(__constant struct world *world, int left, int top R
 #endif
     return ray;
 #else
-    return camera_ray(world, x + 0.5f, y + 0.5f);
+    return eye_rays(world, eye, left, top, x + 0.5f, y + 0.5f);
 #endif
 }
 
@@ -76,9 +98,10 @@ INLINE uint earlier_samples(__constant struct world *world, uint counted RAY_PAR
 #endif
 }
 
-// Stores the light of the lanes that run and lie in the picture.
-INLINE void store_pixels(__constant struct world *world, __global float4 *picture, int left, int top,
-                         const struct ray *ray, const struct light *light) {
+// Stores in an eye's picture the light of the lanes that run and lie in the picture.
+INLINE void store_pixels(__constant struct world *world, __global float4 *picture, int eye, int left,
+                         int top, const struct ray *ray, const struct light *light) {
+    picture += FIRST_PIXEL(world, eye);
 #if LANES == 1
     picture[top * world->width + left] = (float4)(light->r, light->g, light->b, light->a);
 #else

@@ -194,20 +194,22 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint packets_per_row = TILE_PX / PACKET_W;
     const uint packets_per_tile = packets_per_row * (TILE_PX / PACKET_H);
     const uint packet = get_global_id(0) % packets_per_tile;
-    const uint tile = get_global_id(0) / packets_per_tile + first_tile;
+    const uint turn = get_global_id(0) / packets_per_tile + first_tile;
+    const uint tile = EYES == EYES_BOTH ? turn / 2 : turn;
+    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
     // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that high.
     const uint band = packet / (packets_per_row * GROUP_ROWS),
                place = packet % (packets_per_row * GROUP_ROWS);
     const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;
     const int left = (int)(tile % world->tiles_x * TILE_PX + column * PACKET_W);
     const int top = (int)(tile / world->tiles_x * TILE_PX + row * PACKET_H);
-    __global uint *counts = &sample_counts[(tile * packets_per_tile + packet) * SAMPLE_COUNTS];
+    __global uint *counts = &sample_counts[(turn * packets_per_tile + packet) * SAMPLE_COUNTS];
     for (int n = 0; n < SAMPLE_COUNTS; n++)
         counts[n] = earlier_samples(world, counts[n] RAY_ARGUMENTS);
     if (left >= world->width || top >= world->height)
         return;
 
-    const struct ray ray = pixel_rays(world, left, top RAY_ARGUMENTS);
+    const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
         return;
     struct crossing crossing;
@@ -234,7 +236,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
 #if DEBUG
     light.r = debug_number(world, &crossing, samples);
 #endif
-    store_pixels(world, picture, left, top, &ray, &light);
+    store_pixels(world, picture, eye, left, top, &ray, &light);
 }
 
 #if PROBE

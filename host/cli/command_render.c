@@ -51,22 +51,20 @@ static int save(struct run *run) {
     return good ? PEL_OK : cli_fail_library();
 }
 
-// What the second eye cost: the time of both and of composing them, over that of the first.
+// What both eyes cost, in samples, over the first one; an interlaced picture costs what one does.
 static json_t *describe_stereo(const struct run *run) {
     const struct pel_render_statistics *statistics = &run->statistics;
-    const double *eye_ms = statistics->stereo.eye_ms;
     const uint64_t *samples = statistics->stereo.eye_samples;
     json_t *object = json_object();
     json_object_set_new(object, "kind", json_string(pel_stereo_names()[run->scene->stereo.kind]));
     json_object_set_new(object, "separation_mm", report_number(statistics->stereo.separation_mm));
     json_object_set_new(object, "convergence_mm", report_number(statistics->stereo.convergence_mm));
-    json_object_set_new(object, "eye_ms", report_numbers(eye_ms, 2));
     json_object_set_new(object, "eye_samples",
                         json_pack("[I, I]", (json_int_t)samples[0], (json_int_t)samples[1]));
     json_object_set_new(object, "compose_ms", report_number(statistics->stereo.compose_ms));
-    json_object_set_new(
-        object, "relative_cost",
-        report_number((eye_ms[0] + eye_ms[1] + statistics->stereo.compose_ms) / eye_ms[0]));
+    json_object_set_new(object, "relative_cost",
+                        report_number((double)(samples[0] + samples[1]) /
+                                      (double)(samples[0] > 0 ? samples[0] : 1)));
     return object;
 }
 

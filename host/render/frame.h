@@ -1,11 +1,21 @@
-// frame.h - inside the render module: one frame, seen by one eye.
+// frame.h - inside the render module: one frame, seen by one eye or two.
 #ifndef PEL_RENDER_FRAME_H
 #define PEL_RENDER_FRAME_H
 
 #include "pellucid.h"
+#include "shared/variant.h"
 
-// As pel_renderer_render, for a scene whose `stereo` is not looked at. `statistics` may be NULL.
+// Whose eyes see a frame. Zero-initialise: those of the scene's camera.
+struct pel_frame_eyes {
+    int eyes;                        // EYES_*, or 0
+    const struct pel_camera *second; // the first one's is the scene's
+    int weave[2]; // EYES_WOVEN: pixels where weave[0] x + weave[1] y is odd are the second eye's
+};
+
+// As pel_renderer_render, for a scene whose `stereo` is not looked at. With EYES_BOTH the picture
+// is twice as high, the second eye's below the first one's. `statistics` may be NULL.
 struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                   const struct pel_frame_eyes *eyes,
                                    const struct pel_render_options *options,
                                    struct pel_render_statistics *statistics);
 

@@ -79,6 +79,12 @@ static bool check_memory(const struct pel_layout *layout, const struct pel_layou
     return true;
 }
 
+// Pixels of all pictures of a frame.
+static size_t count_pixels(const struct pel_world *world) {
+    return (size_t)world->bytes.width * (size_t)world->bytes.height *
+           (size_t)pel_world_pictures(world);
+}
+
 // Binds everything but where light goes, the first tile, and the ray's number, in the order of the
 // kernel's parameters. A kernel has an atlas for each class in `voxels` only.
 static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel,
@@ -98,11 +104,11 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
 
 // Runs the kernel for one ray of each pixel after the other, and adds them up.
 static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                     const struct pel_scene *scene, const struct pel_tiling *tiling,
-                     const struct pel_render_options *options,
+                     const struct pel_scene *scene, const struct pel_world *world,
+                     const struct pel_tiling *tiling, const struct pel_render_options *options,
                      struct pel_render_statistics *statistics) {
     const struct pel_supersampling *supersampling = &scene->render.supersampling;
-    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
+    size_t pixels = count_pixels(world);
     bool adaptive = (float)supersampling->adaptive > 0; // as the kernels read it
     int n = supersampling->n > 1 ? supersampling->n : 1;
     struct pel_pass pass = {0, n * n + adaptive};
@@ -133,13 +139,18 @@ static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
 }
 
 // Adds up what the packets have counted.
-static void count_samples(struct pel_renderer *renderer, size_t packets,
+static void count_samples(struct pel_renderer *renderer, const struct pel_world *world,
+                          const struct pel_tiling *tiling,
                           struct pel_render_statistics *statistics) {
+    size_t packets = tiling->tiles * tiling->packets_per_tile;
+    size_t pictures = (size_t)pel_world_pictures(world);
     uint32_t(*counts)[SAMPLE_COUNTS] = pel_allocate(packets, sizeof *counts);
     uint64_t possible = 0;
     if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts)) {
         for (size_t i = 0; i < packets; i++) {
             statistics->samples += counts[i][SAMPLES_TAKEN];
+            statistics->stereo.eye_samples[i / tiling->packets_per_tile % pictures] +=
+                counts[i][SAMPLES_TAKEN];
             statistics->samples_terminated += counts[i][SAMPLES_BEHIND];
             possible += counts[i][SAMPLES_POSSIBLE];
         }
@@ -179,17 +190,18 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         return NULL;
     statistics->build_ms = lap_ms(&mark);
 
-    *tiling = pel_tiles_plan(&scene->render, lanes, choose_group(renderer, kernel));
-    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
+    *tiling = pel_tiles_plan(&scene->render, pel_world_pictures(world), lanes,
+                             choose_group(renderer, kernel));
     size_t packets = (tiling->tiles + tiling->tiles_per_group) * tiling->packets_per_tile;
     if (!pel_residency_update(&renderer->residency, scene, layout, world) ||
         !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
-                           sizeof world->bytes.camera, "the scene", NULL) ||
+                           (world->eyes == EYES_ONE ? 1 : 2) * sizeof world->bytes.camera,
+                           "the scene", NULL) ||
         !pel_mirror_update(&renderer->tables, device, world->tables,
                            world->table_words * sizeof *world->tables, 0, "transfer functions",
                            NULL) ||
         (world->supersampling &&
-         !pel_resolve_prepare(&renderer->resolve, device, kernel, pixels)) ||
+         !pel_resolve_prepare(&renderer->resolve, device, kernel, count_pixels(world))) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
                      packets * SAMPLE_COUNTS * sizeof(u32), device, "sample counts"))
         return NULL;
@@ -213,13 +225,13 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
 
 // Runs the kernel as often as a picture needs.
 static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                       const struct pel_scene *scene, const struct pel_tiling *tiling,
-                       bool supersampling, const struct pel_render_options *options,
+                       const struct pel_scene *scene, const struct pel_world *world,
+                       const struct pel_tiling *tiling, const struct pel_render_options *options,
                        struct pel_render_statistics *statistics) {
-    statistics->rays = (uint64_t)scene->render.width * (uint64_t)scene->render.height;
+    statistics->rays = count_pixels(world);
     statistics->refined = 1;
-    if (supersampling)
-        return run_rays(renderer, kernel, scene, tiling, options, statistics);
+    if (world->supersampling)
+        return run_rays(renderer, kernel, scene, world, tiling, options, statistics);
     if (scene->render.debug == PEL_DEBUG_TIME) {
         renderer->pace.tile_ms = pel_allocate(tiling->tiles, sizeof *renderer->pace.tile_ms);
         if (!renderer->pace.tile_ms)
@@ -243,18 +255,21 @@ static bool paint(struct pel_image *image, const struct pel_renderer *renderer, 
 
 // Runs the kernel and brings the picture here. The caller owns it.
 static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                             const struct pel_scene *scene, const struct pel_tiling *tiling,
-                             bool supersampling, const struct pel_render_options *options,
+                             const struct pel_scene *scene, const struct pel_world *world,
+                             const struct pel_tiling *tiling,
+                             const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
-    struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
+    struct pel_image *image =
+        pel_image_create(scene->render.width, pel_world_pictures(world) * scene->render.height);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
         return NULL;
     }
-    struct pel_buffer *light = supersampling ? renderer->resolve.light : renderer->target.buffer;
+    struct pel_buffer *light =
+        world->supersampling ? renderer->resolve.light : renderer->target.buffer;
     bool good = pel_kernel_set_buffer(kernel, PEL_LIGHT_ARGUMENT, light) &&
-                run_passes(renderer, kernel, scene, tiling, supersampling, options, statistics);
+                run_passes(renderer, kernel, scene, world, tiling, options, statistics);
     statistics->render_ms = lap_ms(&mark);
     good = pel_target_end(&renderer->target, image, good) &&
            (scene->render.debug == PEL_DEBUG_NONE ||
@@ -265,17 +280,18 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
         pel_image_destroy(image);
         return NULL;
     }
-    count_samples(renderer, tiling->tiles * tiling->packets_per_tile, statistics);
+    count_samples(renderer, world, tiling, statistics);
     statistics->download_ms = lap_ms(&mark);
     return image;
 }
 
 // The picture of nothing: the background.
 static struct pel_image *render_background(const struct pel_world *world) {
-    struct pel_image *image = pel_image_create(world->bytes.width, world->bytes.height);
+    struct pel_image *image =
+        pel_image_create(world->bytes.width, pel_world_pictures(world) * world->bytes.height);
     if (!image)
         return NULL;
-    size_t pixels = (size_t)image->width * (size_t)image->height;
+    size_t pixels = count_pixels(world);
     for (size_t i = 0; i < pixels; i++)
         memcpy(&image->rgba[4 * i], &world->bytes.background, sizeof world->bytes.background);
     return image;
@@ -283,8 +299,8 @@ static struct pel_image *render_background(const struct pel_world *world) {
 
 // Plans where the voxels lie and makes the world's bytes, which go by that. Zeroes the statistics.
 static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
-                 struct pel_layout *layout, struct pel_world *world,
-                 struct pel_render_statistics *statistics) {
+                 const struct pel_frame_eyes *eyes, struct pel_layout *layout,
+                 struct pel_world *world, struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
     const struct pel_device_info *info = pel_device_describe(renderer->device);
     *statistics = (struct pel_render_statistics){0};
@@ -292,12 +308,12 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
         return false;
     struct pel_layout_limits limits =
         pel_residency_limits(renderer->device, renderer->options.max_allocation_bytes);
-    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     if (!pel_layout_plan(layout, scene, &limits, renderer->options.reader, info->reader) ||
         !pel_world_build(world, scene, layout, &renderer->memo))
         return false;
     size_t pixel_bytes = sizeof(float4) + (world->supersampling ? PEL_RESOLVE_BYTES : 0);
-    if (!check_memory(layout, &limits, pixels * pixel_bytes)) {
+    if ((eyes->second && !pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave)) ||
+        !check_memory(layout, &limits, count_pixels(world) * pixel_bytes)) {
         pel_world_finish(world);
         return false;
     }
@@ -311,6 +327,7 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
 }
 
 struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                   const struct pel_frame_eyes *eyes,
                                    const struct pel_render_options *options,
                                    struct pel_render_statistics *statistics) {
     struct pel_render_statistics unwanted;
@@ -321,7 +338,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_world world;
     struct pel_scene shown;
     if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown) ||
-        !plan(renderer, &shown, &layout, &world, statistics))
+        !plan(renderer, &shown, eyes, &layout, &world, statistics))
         return NULL;
     struct pel_image *image = NULL;
     if (world.bytes.part_count == 0) {
@@ -330,8 +347,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
         struct pel_tiling tiling;
         struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &tiling, statistics);
         if (kernel)
-            image =
-                run(renderer, kernel, &shown, &tiling, world.supersampling, options, statistics);
+            image = run(renderer, kernel, &shown, &world, &tiling, options, statistics);
     }
     pel_world_finish(&world);
     const struct pel_device_info *info = pel_device_describe(renderer->device);
@@ -358,7 +374,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
     struct pel_render_statistics statistics;
     struct pel_layout layout;
     struct pel_world world;
-    if (!plan(renderer, &seen, &layout, &world, &statistics))
+    if (!plan(renderer, &seen, &(struct pel_frame_eyes){0}, &layout, &world, &statistics))
         return false;
     statistics.lanes = 1;
     world.probe = true;

@@ -13,12 +13,12 @@ static size_t round_up(size_t value, size_t multiple) {
     return (value + multiple - 1) / multiple * multiple;
 }
 
-struct pel_tiling pel_tiles_plan(const struct pel_render_settings *settings, int lanes,
-                                 size_t group) {
+struct pel_tiling pel_tiles_plan(const struct pel_render_settings *settings, int pictures,
+                                 int lanes, size_t group) {
     size_t tiles_x = ((size_t)settings->width + TILE_PX - 1) / TILE_PX;
     size_t tiles_y = ((size_t)settings->height + TILE_PX - 1) / TILE_PX;
     size_t packets = TILE_PX * TILE_PX / (size_t)lanes;
-    return (struct pel_tiling){tiles_x * tiles_y, packets, group,
+    return (struct pel_tiling){(size_t)pictures * tiles_x * tiles_y, packets, group,
                                group > packets ? group / packets : 1};
 }
 

@@ -24,8 +24,9 @@ struct pel_pass {
     int number, count;
 };
 
-struct pel_tiling pel_tiles_plan(const struct pel_render_settings *settings, int lanes,
-                                 size_t group);
+// The tiles of `pictures` pictures.
+struct pel_tiling pel_tiles_plan(const struct pel_render_settings *settings, int pictures,
+                                 int lanes, size_t group);
 
 // Runs the kernel over all tiles, in batches, and waits for it. False: DEVICE, or ARGUMENT when
 // the caller abandons the frame.

@@ -382,6 +382,8 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     memset(world, 0, sizeof *world);
     world->cell_side = layout->cell_side;
     world->pool = layout->pool;
+    world->eyes = EYES_ONE;
+    world->bytes.pictures = 1;
     struct pel_bounds bounds = {{0}, {0}};
     int visible = 0;
     for (int k = 0; k < scene->instance_count; k++)
@@ -413,6 +415,19 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     if (!good)
         pel_world_finish(world);
     return good;
+}
+
+bool pel_world_add_eye(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_camera *second, int eyes, const int weave[2]) {
+    world->eyes = eyes;
+    world->bytes.pictures = eyes == EYES_BOTH ? 2 : 1;
+    world->bytes.weave_x = weave[0];
+    world->bytes.weave_y = weave[1];
+    return fill_camera(&world->bytes.second, second, &scene->render, world->centre);
+}
+
+int pel_world_pictures(const struct pel_world *world) {
+    return world->bytes.pictures;
 }
 
 void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {

@@ -21,6 +21,7 @@ struct pel_world {
     int filters;        // FILTERS_*
     int mixing;         // MIXING_*
     int models;         // MODELS_*
+    int eyes;           // EYES_*
     int cut_count;      // of bytes.cuts, which end there
     bool clipped;       // some part has planes or boxes
     bool masked;        // where some part is shown, another volume decides
@@ -46,6 +47,15 @@ struct pel_world {
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout, struct pel_memo *memo);
 void pel_world_finish(struct pel_world *world);
+
+// Lets the world be seen by a second eye, too: EYES_BOTH, or EYES_WOVEN, whose picture's pixels
+// are the second one's where weave[0] x + weave[1] y is odd. Fails (ARGUMENT) on a camera without
+// direction.
+bool pel_world_add_eye(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_camera *second, int eyes, const int weave[2]);
+
+// How many pictures there are, above each other.
+int pel_world_pictures(const struct pel_world *world);
 
 // How many of the first bytes of world->bytes there are for a kernel to read.
 size_t pel_world_bytes(const struct pel_world *world);
