@@ -345,6 +345,9 @@ struct pel_stereo {
                            // the picture; 0 = automatic
     bool flat;             // no separation at all: both eyes see the same
     bool toe_in;           // turn the cameras inwards instead of moving their windows
+    bool reproject;      // the second eye's picture is the first one's, moved by the depth of what
+                         // it shows, and rays only where that leaves holes (docs/stereo.md); not
+                         // for interlaced kinds, which need no second picture
     bool swap;           // the left eye's picture goes where the right one's would, and vice versa
     double matrix[3][6]; // of PEL_STEREO_MATRIX: linear red, green and blue from the left eye's
                          // and the right eye's
@@ -906,6 +909,9 @@ struct pel_render_statistics {
     struct {
         double separation_mm, convergence_mm; // as they were used
         double compose_ms;                    // putting the pictures together
+        double reprojected;                   // share of the second eye's pixels that no ray was
+                                              // cast for; 0 without reprojection
+        double reproject_ms;                  // of render_ms's frame, moving them
         uint64_t eye_samples[2];              // of the first eye, and of the second; an interlaced
                                               // picture's are all counted as the first one's
     } stereo;

@@ -18,7 +18,7 @@
 #endif
 
 // The index of the first pixel of an eye's picture.
-#if EYES == EYES_BOTH
+#if EYES == EYES_BOTH || EYES == EYES_DEPTH
 #define FIRST_PIXEL(world, eye) ((eye) * (world)->width * (world)->height)
 #else
 #define FIRST_PIXEL(world, eye) 0

@@ -5,6 +5,7 @@
 // sample follows the parts that the packet is in (active.cl). Each part has a cursor; after a sample in which
 // nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
+#include "depth.cl"
 #include "mix.cl"
 #include "model.cl"
 #include "order.cl"
@@ -163,6 +164,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         }
 
 #if MIXING == MIXING_ORDERED
+        NOTE_DEPTH(crossing, &light, place / PLACES_PER_STEP);
         if (seen)
             alive &= MASK(light.a <= world->termination);
 #else
@@ -172,6 +174,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #if MODELS
             gathered_join(&gathered, &light);
 #endif
+            NOTE_DEPTH(crossing, &light, TO_REAL(i - 1));
             alive &= MASK(light.a <= world->termination);
         } else {
             i = CHOOSE(i, leap(&active, crossing, i), alive);
@@ -224,6 +227,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
         light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
 #endif
 
+    STORE_DEPTH(world, picture, left, top, &ray, &crossing, &light);
     const float4 behind = world->background;
     const real clear = 1.0f - light.a;
     light.r += clear * behind.x;

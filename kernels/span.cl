@@ -69,8 +69,11 @@ struct crossing {
 #if SHADING || CLIP
     struct ray ray;
 #endif
-#if SHADING || PROBE || CLIP
+#if SHADING || PROBE || CLIP || EYES == EYES_DEPTH
     real t_first; // where sample 0 lies
+#endif
+#if EYES == EYES_DEPTH
+    real depth, depth_weight; // sample numbers times their weights, and the sum of these (depth.cl)
 #endif
 #if PROBE
     __global struct probe_sample *log;
@@ -164,12 +167,15 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
 #if SHADING || CLIP
     crossing->ray = *ray;
 #endif
-#if SHADING || PROBE || CLIP
+#if SHADING || PROBE || CLIP || EYES == EYES_DEPTH
     crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
 #endif
 #if MODELS & MODELS_BACKWARD
     const float samples_per_mm = 1.0f / world->step_mm;
     crossing->mirror = sample_at(bounds.far, t_near, RAY_PHASE(world, ray), samples_per_mm) + 1;
+#endif
+#if EYES == EYES_DEPTH
+    crossing->depth = crossing->depth_weight = (real)(0.0f);
 #endif
     crossing->count = 0;
     crossing->possible = crossing->behind = (integer)(0);

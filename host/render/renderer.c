@@ -2,6 +2,7 @@
 //
 // A frame is: plan where voxels lie, make the world's bytes, send what changed, choose the kernel,
 // and run it over the tiles in short batches. What is on the device stays for the next frame.
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -223,13 +224,38 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     return kernel;
 }
 
+// Runs the kernel for one ray of each of some pixels.
+static bool run_only(struct pel_renderer *renderer, struct pel_kernel *kernel,
+                     const struct pel_world *world, const struct pel_tiling *tiling,
+                     const uint8_t *only, const struct pel_render_options *options,
+                     struct pel_render_statistics *statistics) {
+    size_t pixels = count_pixels(world), packets = tiling->tiles * tiling->packets_per_tile;
+    // The kernel takes this for a later ray of each pixel, and goes on counting.
+    uint32_t *zeros = pel_allocate(packets * SAMPLE_COUNTS, sizeof *zeros);
+    bool good = zeros &&
+                pel_buffer_write(renderer->sample_counts, 0,
+                                 packets * SAMPLE_COUNTS * sizeof *zeros, zeros) &&
+                pel_buffer_write(renderer->resolve.refined, 0, pixels, only) &&
+                pel_kernel_set_u32(kernel, PEL_RAY_ARGUMENT, 0) &&
+                pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options,
+                              (struct pel_pass){0, 1});
+    free(zeros);
+    statistics->rays = 0;
+    for (size_t i = 0; i < pixels; i++)
+        statistics->rays += only[i] != 0;
+    return good;
+}
+
 // Runs the kernel as often as a picture needs.
 static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
                        const struct pel_scene *scene, const struct pel_world *world,
-                       const struct pel_tiling *tiling, const struct pel_render_options *options,
+                       const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
+                       const struct pel_render_options *options,
                        struct pel_render_statistics *statistics) {
     statistics->rays = count_pixels(world);
     statistics->refined = 1;
+    if (eyes->only)
+        return run_only(renderer, kernel, world, tiling, eyes->only, options, statistics);
     if (world->supersampling)
         return run_rays(renderer, kernel, scene, world, tiling, options, statistics);
     if (scene->render.debug == PEL_DEBUG_TIME) {
@@ -256,20 +282,20 @@ static bool paint(struct pel_image *image, const struct pel_renderer *renderer, 
 // Runs the kernel and brings the picture here. The caller owns it.
 static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *kernel,
                              const struct pel_scene *scene, const struct pel_world *world,
-                             const struct pel_tiling *tiling,
+                             const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
                              const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
     struct pel_image *image =
-        pel_image_create(scene->render.width, pel_world_pictures(world) * scene->render.height);
+        pel_image_create(scene->render.width, pel_world_planes(world) * scene->render.height);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
         return NULL;
     }
-    struct pel_buffer *light =
-        world->supersampling ? renderer->resolve.light : renderer->target.buffer;
+    bool adds_up = world->supersampling && !eyes->only;
+    struct pel_buffer *light = adds_up ? renderer->resolve.light : renderer->target.buffer;
     bool good = pel_kernel_set_buffer(kernel, PEL_LIGHT_ARGUMENT, light) &&
-                run_passes(renderer, kernel, scene, world, tiling, options, statistics);
+                run_passes(renderer, kernel, scene, world, eyes, tiling, options, statistics);
     statistics->render_ms = lap_ms(&mark);
     good = pel_target_end(&renderer->target, image, good) &&
            (scene->render.debug == PEL_DEBUG_NONE ||
@@ -288,12 +314,14 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
 // The picture of nothing: the background.
 static struct pel_image *render_background(const struct pel_world *world) {
     struct pel_image *image =
-        pel_image_create(world->bytes.width, pel_world_pictures(world) * world->bytes.height);
+        pel_image_create(world->bytes.width, pel_world_planes(world) * world->bytes.height);
     if (!image)
         return NULL;
     size_t pixels = count_pixels(world);
     for (size_t i = 0; i < pixels; i++)
         memcpy(&image->rgba[4 * i], &world->bytes.background, sizeof world->bytes.background);
+    for (size_t i = pixels; i < (size_t)image->width * (size_t)image->height; i++)
+        image->rgba[4 * i] = FLT_MAX;
     return image;
 }
 
@@ -311,7 +339,14 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     if (!pel_layout_plan(layout, scene, &limits, renderer->options.reader, info->reader) ||
         !pel_world_build(world, scene, layout, &renderer->memo))
         return false;
-    size_t pixel_bytes = sizeof(float4) + (world->supersampling ? PEL_RESOLVE_BYTES : 0);
+    if (eyes->eyes == EYES_DEPTH)
+        world->eyes = EYES_DEPTH;
+    if (eyes->only) { // pixels with contrast, of which there are no others
+        world->supersampling = true;
+        world->bytes.contrast = 1;
+    }
+    size_t pixel_bytes = (size_t)pel_world_planes(world) * sizeof(float4) +
+                         (world->supersampling ? PEL_RESOLVE_BYTES : 0);
     if ((eyes->second && !pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave)) ||
         !check_memory(layout, &limits, count_pixels(world) * pixel_bytes)) {
         pel_world_finish(world);
@@ -347,7 +382,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
         struct pel_tiling tiling;
         struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &tiling, statistics);
         if (kernel)
-            image = run(renderer, kernel, &shown, &world, &tiling, options, statistics);
+            image = run(renderer, kernel, &shown, &world, eyes, &tiling, options, statistics);
     }
     pel_world_finish(&world);
     const struct pel_device_info *info = pel_device_describe(renderer->device);

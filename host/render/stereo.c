@@ -3,9 +3,13 @@
 // The kernel takes tiles of either eye in turns, so that the second one finds the voxels in the
 // caches, and everything but a camera is prepared and sent once. Of an interlaced picture it
 // follows only the rays that are shown: a packet then has rays of both eyes.
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
+#include "base/memory.h"
 #include "render/frame.h"
+#include "render/reproject.h"
 
 static bool is_debug(const struct pel_scene *scene) {
     return scene->render.debug != PEL_DEBUG_NONE;
@@ -90,9 +94,100 @@ static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_
     return both;
 }
 
+// Reprojection moves colours along rows, from one ray of each pixel.
+static bool check_reproject(const struct pel_scene *scene) {
+    const struct pel_supersampling *supersampling = &scene->render.supersampling;
+    if (scene->stereo.toe_in || scene->camera.orthographic)
+        return pel_fail(PEL_ERROR_UNSUPPORTED,
+                        "stereo.reproject needs parallel cameras of perspective, not %s",
+                        scene->camera.orthographic ? "an orthographic view" : "toe_in");
+    if (supersampling->n > 1)
+        return pel_fail(PEL_ERROR_UNSUPPORTED,
+                        "stereo.reproject goes with one ray a pixel, not with %d x %d",
+                        supersampling->n, supersampling->n);
+    if (supersampling->pattern != PEL_PATTERN_REGULAR ||
+        supersampling->filter != PEL_RECONSTRUCTION_BOX)
+        return pel_fail(PEL_ERROR_UNSUPPORTED,
+                        "stereo.reproject goes with rays through the middles of pixels only");
+    return true;
+}
+
+// Renders the pixels of the second eye that the first one's picture does not tell.
+static bool fill_holes(struct pel_renderer *renderer, const struct pel_scene *seen,
+                       const uint8_t *holes, struct pel_image *second,
+                       const struct pel_render_options *options,
+                       struct pel_render_statistics *statistics) {
+    struct pel_render_statistics of_holes;
+    struct pel_image *cast = pel_frame_render(
+        renderer, seen, &(struct pel_frame_eyes){.only = holes}, options, &of_holes);
+    if (!cast)
+        return false;
+    size_t pixels = (size_t)second->width * (size_t)second->height;
+    for (size_t i = 0; i < pixels; i++)
+        if (holes[i])
+            memcpy(&second->rgba[4 * i], &cast->rgba[4 * i], 4 * sizeof *cast->rgba);
+    pel_image_destroy(cast);
+    add_statistics(statistics, &of_holes, 1);
+    return true;
+}
+
+// Puts the second eye's picture in the place of the depth below the first one's.
+static bool make_second(struct pel_renderer *renderer, struct pel_scene *seen,
+                        const struct pel_camera cameras[2], struct pel_image *both,
+                        const struct pel_render_options *options,
+                        struct pel_render_statistics *statistics) {
+    int width = both->width, height = both->height / 2;
+    size_t pixels = (size_t)width * (size_t)height, hole_count = 0;
+    float *depth = pel_allocate(pixels, sizeof *depth);
+    uint8_t *holes = pel_allocate(pixels, sizeof *holes);
+    bool good = depth && holes;
+    double begin_ms = pel_clock_ms();
+    const struct pel_image first = {width, height, both->rgba};
+    struct pel_image second = {width, height, both->rgba + 4 * pixels};
+    for (size_t i = 0; good && i < pixels; i++)
+        depth[i] = second.rgba[4 * i];
+    if (good) {
+        const struct pel_parallax parallax = pel_parallax_between(cameras, width, height);
+        pel_depth_from_distance(depth, &cameras[0], width, height);
+        good = pel_reproject(&second, holes, &first, depth, &parallax);
+    }
+    for (size_t i = 0; good && i < pixels; i++)
+        hole_count += holes[i];
+    statistics->stereo.reproject_ms = pel_clock_ms() - begin_ms;
+    statistics->stereo.reprojected = 1 - (double)hole_count / (double)pixels;
+    seen->camera = cameras[1];
+    good = good &&
+           (hole_count == 0 || fill_holes(renderer, seen, holes, &second, options, statistics));
+    free(depth);
+    free(holes);
+    return good;
+}
+
+// The first eye's picture, and from it the second one's.
+static struct pel_image *render_reprojected(struct pel_renderer *renderer, struct pel_scene *seen,
+                                            const struct pel_camera cameras[2],
+                                            const struct pel_render_options *options,
+                                            struct pel_render_statistics *statistics) {
+    if (!check_reproject(seen))
+        return NULL;
+    struct part part = {options, 0};
+    struct pel_render_options of_eye = options ? *options : (struct pel_render_options){0};
+    if (of_eye.progress) {
+        of_eye.progress = report_part;
+        of_eye.user = &part;
+    }
+    const struct pel_frame_eyes with_depth = {.eyes = EYES_DEPTH};
+    struct pel_image *both = pel_frame_render(renderer, seen, &with_depth, &of_eye, statistics);
+    part.begin = 0.5;
+    if (both && make_second(renderer, seen, cameras, both, &of_eye, statistics))
+        return both;
+    pel_image_destroy(both);
+    return NULL;
+}
+
 // Renders what two cameras see. The caller owns the picture.
 static struct pel_image *render_pair(struct pel_renderer *renderer, const struct pel_scene *scene,
-                                     struct pel_frame_eyes *eyes,
+                                     const struct pel_frame_eyes *eyes,
                                      const struct pel_render_options *options,
                                      struct pel_render_statistics *statistics) {
     struct pel_camera cameras[2];
@@ -102,10 +197,15 @@ static struct pel_image *render_pair(struct pel_renderer *renderer, const struct
     // The copy borrows everything the scene owns.
     struct pel_scene seen = *scene;
     seen.camera = cameras[0];
-    eyes->second = &cameras[1];
-    struct pel_image *image = is_debug(scene)
-                                  ? render_apart(renderer, &seen, &cameras[1], options, statistics)
-                                  : pel_frame_render(renderer, &seen, eyes, options, statistics);
+    struct pel_frame_eyes both = *eyes;
+    both.second = &cameras[1];
+    struct pel_image *image;
+    if (is_debug(scene))
+        image = render_apart(renderer, &seen, &cameras[1], options, statistics);
+    else if (scene->stereo.reproject && eyes->eyes == EYES_BOTH)
+        image = render_reprojected(renderer, &seen, cameras, options, statistics);
+    else
+        image = pel_frame_render(renderer, &seen, &both, options, statistics);
     statistics->stereo.separation_mm = used.separation_mm;
     statistics->stereo.convergence_mm = used.convergence_mm;
     return image;
@@ -119,7 +219,7 @@ bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_sc
         statistics = &unwanted;
     *statistics = (struct pel_render_statistics){0};
     eyes[0] = eyes[1] = NULL;
-    struct pel_frame_eyes both = {.eyes = EYES_BOTH};
+    const struct pel_frame_eyes both = {.eyes = EYES_BOTH};
     struct pel_image *image = render_pair(renderer, scene, &both, options, statistics);
     for (int i = 0; image && i < 2; i++)
         eyes[i] = pel_image_create(image->width, image->height / 2);

@@ -420,14 +420,18 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
 bool pel_world_add_eye(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_camera *second, int eyes, const int weave[2]) {
     world->eyes = eyes;
-    world->bytes.pictures = eyes == EYES_BOTH ? 2 : 1;
+    world->bytes.pictures = pel_world_pictures(world);
     world->bytes.weave_x = weave[0];
     world->bytes.weave_y = weave[1];
     return fill_camera(&world->bytes.second, second, &scene->render, world->centre);
 }
 
 int pel_world_pictures(const struct pel_world *world) {
-    return world->bytes.pictures;
+    return world->eyes == EYES_BOTH ? 2 : 1;
+}
+
+int pel_world_planes(const struct pel_world *world) {
+    return world->eyes == EYES_BOTH || world->eyes == EYES_DEPTH ? 2 : 1;
 }
 
 void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {

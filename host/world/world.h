@@ -54,8 +54,9 @@ void pel_world_finish(struct pel_world *world);
 bool pel_world_add_eye(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_camera *second, int eyes, const int weave[2]);
 
-// How many pictures there are, above each other.
+// How many pictures rays are followed for, and how many lie above each other, depth counted as one.
 int pel_world_pictures(const struct pel_world *world);
+int pel_world_planes(const struct pel_world *world);
 
 // How many of the first bytes of world->bytes there are for a kernel to read.
 size_t pel_world_bytes(const struct pel_world *world);
