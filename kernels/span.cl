@@ -7,6 +7,7 @@
 
 #include "shared/probe.h"
 #include "clip.cl"
+#include "traverse/hierarchy.cl"
 #include "traverse/leap.cl"
 
 #if SKIP != SKIP_NONE || POOL
@@ -19,6 +20,8 @@
 #include "traverse/octree.cl"
 #elif SKIP == SKIP_BVH
 #include "traverse/bvh.cl"
+#elif SKIP == SKIP_BLOCKS
+#include "traverse/blocks.cl"
 #else
 #include "traverse/grid.cl"
 #endif
