@@ -9,19 +9,12 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "accel/blocks.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "render/passes.h"
 #include "shared/grid.h"
-
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 // ---- From bins to blocks -----------------------------------------------------------------------
 
@@ -45,14 +38,14 @@ static bool build_part(struct pel_block_map *map, struct content *content,
     struct pel_blocks *blocks = &content->parts[p];
     struct pel_brick_statistics *statistics = &map->statistics;
     size_t dims[3];
-    double start = now_ms();
+    double start = pel_clock_ms();
     statistics->total += pel_hierarchy_bricks(world, p, settings->size, dims);
     if (!pel_blocks_build(blocks, bins + world->bytes.parts[p].cells, dims, settings->size,
                           !settings->stay))
         return false;
     statistics->active += blocks->stored;
     statistics->clusters += blocks->count;
-    statistics->tree_ms += now_ms() - start;
+    statistics->tree_ms += pel_clock_ms() - start;
     struct block_grid *grid = &map->grids[p];
     *grid = (struct block_grid){.stored = (u32)blocks->stored};
     while (1 << grid->bits < settings->size)
@@ -139,7 +132,7 @@ static bool rebuild(struct pel_occupancy *occupancy, struct pel_device *device,
                             PASS_BINS + pel_pass_bits(world, settings->size));
     }
     good = good && pel_buffer_read(occupancy->cells, 0, world->cell_count, bins);
-    map->statistics.activity_ms = now_ms() - start_ms;
+    map->statistics.activity_ms = pel_clock_ms() - start_ms;
     good = good && build(map, device, world, bins, settings);
     free(bins);
     if (!good)
