@@ -14,6 +14,7 @@
 #include "render/passes.h"
 #include "shared/grid.h"
 #include "world/bricks.h"
+#include "world/mask.h"
 
 static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device, size_t cells) {
     if (occupancy->cells && occupancy->scratch && cells <= occupancy->cell_count)
@@ -57,7 +58,14 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
         copy->model = part->model;
         copy->surface_count = part->surface_count;
         copy->surface_values = part->surface_values;
+        copy->mask_cuts = part->mask_cuts;
+        copy->mask_count = part->mask_count;
+        copy->mask_part = part->mask_part;
+        copy->mask_inverted = part->mask_inverted;
+        copy->mask_range_count = part->mask_range_count;
     }
+    if (world->masked)
+        key->masks = pel_mask_hash(world);
 }
 
 // The passes after the first: from `scratch`, which holds what is empty, to `cells`.
@@ -125,6 +133,12 @@ static bool fill_pool(struct pel_occupancy *occupancy, const struct pel_world *w
         for (size_t i = 0; i < cells[0] * cells[1] * cells[2]; i++)
             active[part->ranges + i] |= !empty[part->cells + i];
     }
+    // Masks are read wherever samples are.
+    for (int p = world->bytes.part_count; good && p < world->part_total; p++) {
+        size_t cells[3];
+        pel_world_cells(world, p, cells);
+        memset(active + world->bytes.parts[p].ranges, 1, cells[0] * cells[1] * cells[2]);
+    }
     statistics->size = world->cell_side;
     statistics->total = pages;
     for (size_t i = 0; good && i < pages; i++)
@@ -165,15 +179,17 @@ static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *
     return good;
 }
 
-// The kernel for the passes: only programs that skip by blocks know the passes over those.
-static bool find_kernel(struct pel_occupancy *occupancy, const struct pel_kernel *render,
-                        enum pel_skip skip) {
+// The kernel for the passes, one that knows blocks and masks where there are any.
+static bool find_kernel(struct pel_occupancy *occupancy, const struct pel_world *world,
+                        const struct pel_kernel *render, enum pel_skip skip) {
     bool blocks = skip == PEL_SKIP_BLOCKS;
-    if (occupancy->kernel && (!blocks || occupancy->kernel_blocks))
+    if (occupancy->kernel && occupancy->knows_blocks >= blocks &&
+        occupancy->knows_masks >= world->masked)
         return true;
     pel_kernel_destroy(occupancy->kernel);
     occupancy->kernel = pel_kernel_sibling(render, "occupancy");
-    occupancy->kernel_blocks = blocks;
+    occupancy->knows_blocks = blocks;
+    occupancy->knows_masks = world->masked;
     return occupancy->kernel != NULL;
 }
 
@@ -200,7 +216,8 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
         return make_room(occupancy, device, 1);
     double start_ms = pel_clock_ms();
     bool changed = false;
-    if (!find_kernel(occupancy, render, skip) || !make_room(occupancy, device, world->cell_count) ||
+    if (!find_kernel(occupancy, world, render, skip) ||
+        !make_room(occupancy, device, world->cell_count) ||
         !pel_mirror_update(&occupancy->visible, device, world->visible,
                            world->visible_words * sizeof *world->visible, 0, "visible entries",
                            &changed))

@@ -17,13 +17,14 @@ struct pel_occupancy_key {
     bool linear;                      // tables are interpolated
     enum pel_skip skip;               // for which
     struct pel_brick_settings bricks; // of `bvh` and `blocks`
+    uint64_t masks;                   // a hash of what masks select, and of where
 };
 
 // Zero-initialise.
 struct pel_occupancy {
     struct pel_kernel *kernel;
-    bool kernel_blocks;        // its program skips by blocks
-    struct pel_mirror visible; // counts of visible entries
+    bool knows_blocks, knows_masks; // what there is in its program
+    struct pel_mirror visible;      // counts of visible entries
     struct pel_buffer *cells,
         *scratch;                   // a byte for each cell of each part, and room to work in
     size_t cell_count;              // room in both
