@@ -1,24 +1,25 @@
 // grid.cl - skips by a grid of cells of CELL_VOXELS^3 voxels.
 //
-// Each cell holds how far away the nearest cell is in which something may be visible: 0 for itself, else the
-// Chebyshev distance in cells. A ray in a cell at distance d leaves the empty cube of 2 d - 1 cells at once
-// (`distance`; Cohen & Sheffer 1994, proximity clouds), or the one cell it is in (`grid`; the DDA of Amanatides &
-// Woo 1987, one cell a leap). Samples stay where they are, so the picture is the same.
+// Each cell holds how far away the nearest cell is in which something may be visible: 0 for itself,
+// else the Chebyshev distance in cells. A ray in a cell at distance d leaves the empty cube of 2 d
+// - 1 cells at once
+// (`distance`; Cohen & Sheffer 1994, proximity clouds), or the one cell it is in (`grid`; the DDA
+// of Amanatides & Woo 1987, one cell a leap). Samples stay where they are, so the picture is the
+// same.
 #ifndef GRID_CL
 #define GRID_CL
 
 #include "shared/grid.h"
-#include "traverse/cursor.cl"
+#include "traverse/leap.cl"
 
 #define LOAD_CELL(at) cells[at]
 
-// How many samples from x on lie before the ray leaves the cells within `reach` of its own, along one axis.
+// How many samples from x on lie before the ray leaves the cells within `reach` of its own, along
+// one axis.
 INLINE real samples_to_exit(real x, real delta, integer cell, integer reach) {
     const mask forward = MASK(delta >= 0.0f);
     const integer plane = CHOOSE(cell - reach + 1, cell + reach, forward) << CELL_BITS;
-    // A ray along the cell's walls never leaves it on this axis.
-    const real speed = CHOOSE(delta, (real)(1e-20f), MASK(fabs(delta) < 1e-20f));
-    return (TO_REAL(plane) - x) / speed;
+    return samples_to_plane(x, delta, plane);
 }
 
 // The next sample from i on that may be visible.
@@ -41,11 +42,7 @@ INLINE integer cursor_leap(__constant struct part *part, __global const uchar *c
     real count = samples_to_exit(x, cursor->dx, cx, reach);
     count = fmin(count, samples_to_exit(y, cursor->dy, cy, reach));
     count = fmin(count, samples_to_exit(z, cursor->dz, cz, reach));
-    // A hundredth of a sample less than computed, so that rounding can only cost another look.
-    const integer leap =
-        max(TO_INTEGER(ceil(fmin(count, (real)(1e8f)) - 0.01f)), (integer)(1));
-    const integer next = start + CHOOSE((integer)(0), leap, MASK(distance > 0));
-    return CHOOSE((integer)(SAMPLE_NEVER), next, MASK(i < cursor->end) & MASK(next < cursor->end));
+    return leap_from(cursor, i, start, count, MASK(distance > 0));
 }
 
 #endif

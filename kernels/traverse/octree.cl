@@ -9,7 +9,7 @@
 #define OCTREE_CL
 
 #include "shared/grid.h"
-#include "traverse/cursor.cl"
+#include "traverse/leap.cl"
 
 #define LOAD_NODE(at) cells[at]
 
@@ -18,9 +18,7 @@ INLINE real samples_to_leave(real x, real delta, integer level) {
     const integer bits = level + CELL_BITS;
     const integer node = TO_INTEGER(x) >> bits;
     const integer plane = CHOOSE(node, node + 1, MASK(delta >= 0.0f)) << bits;
-    // A ray along the node's walls never leaves it on this axis.
-    const real speed = CHOOSE(delta, (real)(1e-20f), MASK(fabs(delta) < 1e-20f));
-    return (TO_REAL(plane) - x) / speed;
+    return samples_to_plane(x, delta, plane);
 }
 
 // The next sample from i on that may be visible.
@@ -40,10 +38,7 @@ INLINE integer cursor_leap(__constant struct part *part, __global const uchar *c
     real count = samples_to_leave(x, cursor->dx, level);
     count = fmin(count, samples_to_leave(y, cursor->dy, level));
     count = fmin(count, samples_to_leave(z, cursor->dz, level));
-    // A hundredth of a sample less than computed, so that rounding can only cost another look.
-    const integer leap = max(TO_INTEGER(ceil(fmin(count, (real)(1e8f)) - 0.01f)), (integer)(1));
-    const integer next = start + CHOOSE((integer)(0), leap, MASK(found > 0));
-    return CHOOSE((integer)(SAMPLE_NEVER), next, MASK(i < cursor->end) & MASK(next < cursor->end));
+    return leap_from(cursor, i, start, count, MASK(found > 0));
 }
 
 #endif
