@@ -72,6 +72,10 @@ PEL_API void pel_on_warning(pel_warning_callback callback, void *user);
 // The library's version, "major.minor.patch".
 PEL_API const char *pel_version(void);
 
+// Milliseconds of the clock of all statistics, which only goes forward; only differences mean
+// something.
+PEL_API double pel_clock_ms(void);
+
 // ---- Geometry ----------------------------------------------------------------------------------
 
 // An affine transform: row-major, column vectors, last row 0 0 0 1.

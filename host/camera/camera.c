@@ -1,4 +1,4 @@
-// camera.c - a camera's axes, and cameras that show all of a box.
+// camera.c - a camera's axes, and cameras that show all of a box or of some points.
 #include "camera/camera.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "base/math.h"
 #include "base/text.h"
 
-// The share of the picture's half height and half width that a fitted box reaches.
+// The share of the picture's half height and half width that what is fitted reaches.
 static const double filled = 0.95;
 
 // Where the eye is, seen from the target, and what is up there. RAS: x right, y anterior, z
@@ -43,25 +43,47 @@ static int find_view(const char *name) {
     return -1;
 }
 
-// What must be known of a box to show it: seen from its centre, how far the eye must at least be
-// for its corners to be in a perspective picture of these half extents at distance 1, how far for
-// them to lie before the eye, and the half extents of an orthographic one.
+// What must be known of points to show them: seen from their middle, how far the eye must at least
+// be for them to be in a perspective picture of these half extents at distance 1, how far for them
+// to lie before the eye, and the half extents of an orthographic one.
 struct fit {
-    double distance, front, half_width, half_height;
+    double middle[3]; // in the world
+    double distance, front, half_width, half_height, half_depth;
 };
 
-static struct fit fit_corners(const struct pel_bounds *bounds, const double axes[3][3],
-                              double half_width, double half_height) {
-    struct fit fit = {0};
-    for (int corner = 0; corner < 8; corner++) {
-        double p[3];
+// The middle is that of the points' extents along the axes, so that they reach as far to the left
+// as to the right, and those of a box its own.
+static void find_middle(struct fit *fit, size_t count, const double (*points)[3],
+                        const double axes[3][3]) {
+    double half[3];
+    memset(fit->middle, 0, sizeof fit->middle);
+    for (int axis = 0; axis < 3; axis++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < count; i++) {
+            double at = pel_dot(points[i], axes[axis]);
+            low = fmin(low, at);
+            high = fmax(high, at);
+        }
+        half[axis] = (high - low) / 2;
         for (int i = 0; i < 3; i++)
-            p[i] = (corner >> i & 1 ? 0.5 : -0.5) * (bounds->high[i] - bounds->low[i]);
+            fit->middle[i] += (low + half[axis]) * axes[axis][i];
+    }
+    fit->half_width = half[0];
+    fit->half_height = half[1];
+    fit->half_depth = half[2];
+}
+
+static struct fit fit_points(size_t count, const double (*points)[3], const double axes[3][3],
+                             double half_width, double half_height) {
+    struct fit fit = {.distance = 0};
+    find_middle(&fit, count, points, axes);
+    for (size_t i = 0; i < count; i++) {
+        double p[3];
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] = points[i][axis] - fit.middle[axis];
         double x = fabs(pel_dot(p, axes[0])), y = fabs(pel_dot(p, axes[1]));
         double depth = pel_dot(p, axes[2]);
         fit.front = fmax(fit.front, -depth);
-        fit.half_width = fmax(fit.half_width, x);
-        fit.half_height = fmax(fit.half_height, y);
         fit.distance = fmax(fit.distance, fmax(x / half_width, y / half_height) - depth);
     }
     return fit;
@@ -90,8 +112,8 @@ bool pel_camera_basis(const struct pel_camera *camera, double forward[3], double
     return pel_normalize(up);
 }
 
-bool pel_camera_fit(struct pel_camera *camera, const char *view, const struct pel_bounds *bounds,
-                    double aspect) {
+bool pel_camera_fit_points(struct pel_camera *camera, const char *view, size_t count,
+                           const double (*points)[3], double aspect) {
     int index = find_view(view);
     if (index < 0)
         return false;
@@ -102,15 +124,8 @@ bool pel_camera_fit(struct pel_camera *camera, const char *view, const struct pe
     if (!camera->orthographic && !(camera->fov_deg > 0 && camera->fov_deg < 180))
         return pel_fail(PEL_ERROR_ARGUMENT, "field of view of %g degrees is outside 0..180",
                         camera->fov_deg);
-    double radius = 0;
-    for (int i = 0; i < 3; i++) {
-        if (!(bounds->low[i] <= bounds->high[i]) || !isfinite(bounds->high[i] - bounds->low[i]))
-            return pel_fail(PEL_ERROR_ARGUMENT, "bounds from %g to %g are not a box",
-                            bounds->low[i], bounds->high[i]);
-        radius = hypot(radius, (bounds->high[i] - bounds->low[i]) / 2);
-    }
 
-    // Look at the box's centre from one millimetre away to learn the axes.
+    // Look at the world's origin from one millimetre away to learn the axes.
     double back[3], axes[3][3];
     memcpy(back, views[index].eye, sizeof back);
     pel_normalize(back);
@@ -121,21 +136,35 @@ bool pel_camera_fit(struct pel_camera *camera, const char *view, const struct pe
         return false;
 
     double half = camera->orthographic ? 1 : filled * tan(camera->fov_deg * PEL_PI / 360);
-    struct fit fit = fit_corners(bounds, axes, half * aspect, half);
+    struct fit fit = fit_points(count, points, axes, half * aspect, half);
     double distance = fit.distance;
     if (camera->orthographic) {
         double height = 2 * fmax(fit.half_height, fit.half_width / aspect) / filled;
         camera->height_mm = height > 0 ? height : 1;
         distance = 0;
     }
-    // The box stays before the eye, even where it is a line or a point.
+    // The points stay before the eye, even where they are a line or one point.
+    double radius = hypot(hypot(fit.half_width, fit.half_height), fit.half_depth);
     if (!(distance > fit.front * (1 + 1e-9)))
         distance = fit.front + fmax(radius, 1);
     for (int i = 0; i < 3; i++) {
-        camera->target[i] = bounds->low[i] + (bounds->high[i] - bounds->low[i]) / 2;
-        camera->eye[i] = camera->target[i] + distance * back[i];
+        camera->target[i] = fit.middle[i];
+        camera->eye[i] = fit.middle[i] + distance * back[i];
     }
     return true;
+}
+
+bool pel_camera_fit(struct pel_camera *camera, const char *view, const struct pel_bounds *bounds,
+                    double aspect) {
+    double corners[8][3];
+    for (int i = 0; i < 3; i++) {
+        if (!(bounds->low[i] <= bounds->high[i]) || !isfinite(bounds->high[i] - bounds->low[i]))
+            return pel_fail(PEL_ERROR_ARGUMENT, "bounds from %g to %g are not a box",
+                            bounds->low[i], bounds->high[i]);
+        for (int corner = 0; corner < 8; corner++)
+            corners[corner][i] = corner >> i & 1 ? bounds->high[i] : bounds->low[i];
+    }
+    return pel_camera_fit_points(camera, view, 8, corners, aspect);
 }
 
 struct pel_camera pel_camera_part(const struct pel_camera *whole, double aspect,

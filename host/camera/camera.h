@@ -11,4 +11,9 @@
 bool pel_camera_basis(const struct pel_camera *camera, double forward[3], double right[3],
                       double up[3]);
 
+// As pel_camera_fit, for `count` points in world millimetres, at least one. The camera's target
+// becomes their middle.
+bool pel_camera_fit_points(struct pel_camera *camera, const char *view, size_t count,
+                           const double (*points)[3], double aspect);
+
 #endif

@@ -1,6 +1,7 @@
 // bench.c - the cases of a benchmark, the scenes they share, and medians.
 #include "cli/bench.h"
 
+#include <fnmatch.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -120,6 +121,45 @@ struct bench_case *bench_add(struct bench *bench, const char *suite, const char 
     snprintf(added->suite, sizeof added->suite, "%s", suite);
     snprintf(added->name, sizeof added->name, "%s", name);
     return added;
+}
+
+static bool is_wanted(const struct bench_case *one, const char *only) {
+    char label[128], pattern[128];
+    snprintf(label, sizeof label, "%s %s x%d %dx%d", one->suite, one->name, one->volumes,
+             one->width, one->height);
+    snprintf(pattern, sizeof pattern, "*%s*", only);
+    return fnmatch(pattern, label, 0) == 0;
+}
+
+bool bench_keep_only(struct bench *bench) {
+    int total = bench->case_count, kept = 0;
+    int *place = calloc((size_t)total + 1, sizeof *place);
+    if (!place)
+        return out_of_memory();
+    // Baselines stand before the cases that are compared with them.
+    for (int i = total - 1; i >= 0; i--) {
+        const struct bench_case *one = &bench->cases[i];
+        if (place[i] || is_wanted(one, bench->options.only)) {
+            place[i] = 1;
+            if (one->baseline >= 0)
+                place[one->baseline] = 1;
+        }
+    }
+    for (int i = 0; i < total; i++) {
+        if (!place[i])
+            continue;
+        struct bench_case one = bench->cases[i];
+        if (one.baseline >= 0)
+            one.baseline = place[one.baseline];
+        place[i] = kept;
+        bench->cases[kept++] = one;
+    }
+    free(place);
+    bench->case_count = kept;
+    if (kept == 0)
+        cli_fail(PEL_ERROR_ARGUMENT, "--only: no case of %d is like '%s'", total,
+                 bench->options.only);
+    return kept > 0;
 }
 
 bool bench_time_add(struct bench *bench, struct bench_times *times, double ms) {

@@ -33,6 +33,7 @@ struct bench_options {
     int width, height; // 0: the suite's own
     int largest;       // voxels along a side of the largest volume of `thesis`
     const char *json, *markdown, *plot, *data;
+    const char *only; // a pattern of bench_keep_only; NULL: all cases
     struct pel_renderer_options renderer;
     struct bench_peer peers[BENCH_PEERS];
     int peer_count;
@@ -93,6 +94,11 @@ void bench_finish(struct bench *bench);
 // A new case of one frame with the run's own device options, or NULL after a message. It stays
 // valid until the next one is added.
 struct bench_case *bench_add(struct bench *bench, const char *suite, const char *name);
+
+// Drops the cases that the shell pattern `only` does not find in "SUITE NAME xVOLUMES WxH", such as
+// "task T1, distance x8 640x480", but not the baselines of those it finds. False after a message,
+// where none is left.
+bool bench_keep_only(struct bench *bench);
 
 // A scene of `count` volumes, one instance each, as the reference task wants it: samples every half
 // voxel, opacity over 0.95 ends a ray, blended in order. Borrowed from the bench, as are the

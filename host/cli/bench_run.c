@@ -64,9 +64,9 @@ static bool render(struct bench *bench, struct bench_case *one, double *ms) {
         return false;
     one->scene->render.width = one->width;
     one->scene->render.height = one->height;
-    double begin_ms = report_clock_ms();
+    double begin_ms = pel_clock_ms();
     struct pel_image *image = pel_renderer_render(renderer, one->scene, NULL, &one->statistics);
-    *ms = report_clock_ms() - begin_ms;
+    *ms = pel_clock_ms() - begin_ms;
     pel_image_destroy(image);
     return image != NULL;
 }

@@ -149,7 +149,7 @@ bool bench_sequential_run(const struct bench_case *one, double *ms, uint64_t *sa
         cli_fail(PEL_ERROR_MEMORY, "cannot allocate a picture of %d x %d", one->width, one->height);
         return false;
     }
-    double spacing_mm[3], begin_ms = report_clock_ms();
+    double spacing_mm[3], begin_ms = pel_clock_ms();
     pel_volume_spacing(work.volume, spacing_mm);
     work.step_mm = scene->render.step * fmin(spacing_mm[0], fmin(spacing_mm[1], spacing_mm[2]));
     work.termination = scene->render.termination < 1 ? scene->render.termination : 2;
@@ -166,7 +166,7 @@ bool bench_sequential_run(const struct bench_case *one, double *ms, uint64_t *sa
             follow_ray(&work, direction,
                        &picture[4 * ((size_t)y * (size_t)one->width + (size_t)x)]);
         }
-    *ms = report_clock_ms() - begin_ms;
+    *ms = pel_clock_ms() - begin_ms;
     *samples = work.samples;
     free(picture);
     return true;

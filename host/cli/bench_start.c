@@ -169,7 +169,7 @@ bool bench_start_run(const struct bench *bench, struct bench_case *one, const ch
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, start.output,
                                      O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    double begin_ms = report_clock_ms();
+    double begin_ms = pel_clock_ms();
     pid_t child;
     int error = posix_spawn(&child, start.program, &actions, NULL, start.arguments, environment);
     posix_spawn_file_actions_destroy(&actions);
@@ -179,7 +179,7 @@ bool bench_start_run(const struct bench *bench, struct bench_case *one, const ch
                false;
     if (!wait_for(child, problem))
         return false;
-    *ms = report_clock_ms() - begin_ms;
+    *ms = pel_clock_ms() - begin_ms;
     read_device(&one->statistics, start.output);
     return true;
 }

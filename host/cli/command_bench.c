@@ -37,6 +37,7 @@ enum {
     KEY_PLOT,
     KEY_DATA,
     KEY_LARGEST,
+    KEY_ONLY,
     KEY_PEER,
     KEY_DEVICE,
     KEY_READER,
@@ -50,6 +51,10 @@ static const struct argp_option options[] = {
     {"size", KEY_SIZE, "WxH", 0, "Pixels (default: the suite's own)", 0},
     {"largest", KEY_LARGEST, "N", 0,
      "Voxels along a side of the largest volume of the suite 'thesis' (default 512)", 0},
+    {"only", KEY_ONLY, "PATTERN", 0,
+     "Only cases in whose 'SUITE NAME xVOLUMES WxH' the shell pattern is found, and those they "
+     "are compared with",
+     0},
     {"data", KEY_DATA, "DIR", 0,
      "Folder with the files of the suite 'task', or with their folder 'oracle' (default: "
      "$PELLUCID_TEST_DATA)",
@@ -130,6 +135,9 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_LARGEST:
         good = cli_integer("--largest", argument, 16, &chosen->largest);
+        break;
+    case KEY_ONLY:
+        chosen->only = argument;
         break;
     case KEY_DATA:
         chosen->data = argument;
@@ -301,6 +309,8 @@ static int run(struct bench *bench, const struct arguments *arguments) {
         status = check_output(chosen->plot);
     if (!status)
         status = add_names(bench, arguments->names, arguments->name_count);
+    if (!status && chosen->only && !bench_keep_only(bench))
+        status = (int)PEL_ERROR_ARGUMENT;
     if (!status)
         status = bench_run(bench);
     return status ? status : report(bench);

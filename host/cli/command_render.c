@@ -43,11 +43,11 @@ static int render(struct run *run, const struct render_options *options) {
 }
 
 static int save(struct run *run) {
-    double begin_ms = report_clock_ms();
+    double begin_ms = pel_clock_ms();
     bool good = true;
     for (int i = 0; i < run->pictures.count && good; i++)
         good = picture_save(run->images[i], run->pictures.names[i], run->scene, &run->statistics);
-    run->save_ms = report_clock_ms() - begin_ms;
+    run->save_ms = pel_clock_ms() - begin_ms;
     return good ? PEL_OK : cli_fail_library();
 }
 
@@ -140,7 +140,7 @@ static int render_still(struct run *run, const struct render_options *options, d
     int status = render(run, options);
     if (!status)
         status = save(run);
-    run->total_ms = report_clock_ms() - begin_ms;
+    run->total_ms = pel_clock_ms() - begin_ms;
     if (!status && options->json)
         status = print_json(run);
     else if (!status && !options->quiet && isatty(STDERR_FILENO) &&
@@ -152,7 +152,7 @@ static int render_still(struct run *run, const struct render_options *options, d
 }
 
 int command_render(int argc, char **argv) {
-    double begin_ms = report_clock_ms();
+    double begin_ms = pel_clock_ms();
     struct render_options options;
     struct run run = {0};
     int status = render_options_parse(&options, argc, argv);
@@ -160,7 +160,7 @@ int command_render(int argc, char **argv) {
         goto done;
     cli_show_warnings(!options.quiet);
     run.scene = load(&options);
-    run.load_ms = report_clock_ms() - begin_ms;
+    run.load_ms = pel_clock_ms() - begin_ms;
     if (!run.scene || (options.frame >= 0 && !pel_scene_set_frame(run.scene, options.frame))) {
         status = cli_fail_library();
         goto done;

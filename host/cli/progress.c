@@ -11,13 +11,13 @@ enum { PATIENCE_MS = 500, BAR_CELLS = 40 };
 void progress_begin(struct progress *progress, bool quiet) {
     *progress = (struct progress){
         .wanted = !quiet && isatty(STDERR_FILENO),
-        .begin_ms = report_clock_ms(),
+        .begin_ms = pel_clock_ms(),
     };
 }
 
 bool progress_update(double finished, void *user) {
     struct progress *progress = user;
-    if (!progress->wanted || report_clock_ms() - progress->begin_ms < PATIENCE_MS)
+    if (!progress->wanted || pel_clock_ms() - progress->begin_ms < PATIENCE_MS)
         return true;
     int cells = (int)(finished * BAR_CELLS);
     fprintf(stderr, "\r[%.*s%*s] %3d %%", cells, "########################################",

@@ -113,7 +113,7 @@ bool render_frames_wanted(const struct pel_scene *scene, const struct render_opt
 
 int render_frames(struct pel_scene *scene, const struct pictures *pictures,
                   const struct render_options *options) {
-    double begin_ms = report_clock_ms();
+    double begin_ms = pel_clock_ms();
     struct sequence sequence = {.scene = scene, .pictures = pictures};
     if (scene->timeline.frame_count == 0)
         return cli_fail(PEL_ERROR_ARGUMENT, "the scene has no animation");
@@ -126,7 +126,7 @@ int render_frames(struct pel_scene *scene, const struct pictures *pictures,
         json_decref(sequence.lines);
         return cli_fail_library();
     }
-    double total_ms = report_clock_ms() - begin_ms;
+    double total_ms = pel_clock_ms() - begin_ms;
     if (options->json) {
         json_t *object = json_object();
         json_object_set_new(object, "picture", report_text(pictures->names[0]));

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "cli/options.h"
 
@@ -70,10 +69,4 @@ int report_finish(int status) {
     if (fflush(stdout) != 0 || ferror(stdout))
         return cli_fail(PEL_ERROR_FILE, "standard output: cannot write: %s", strerror(errno));
     return status;
-}
-
-double report_clock_ms(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }

@@ -30,7 +30,4 @@ int report_json(json_t *value);
 // Flushes standard output; returns `status`, or FILE with a sentence when it could not be written.
 int report_finish(int status);
 
-// Milliseconds of a clock that only goes forward.
-double report_clock_ms(void);
-
 #endif

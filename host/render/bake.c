@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -27,12 +26,6 @@ struct bake {
     struct pel_buffer *program, *object, *block; // of values
     float *values;                               // a batch, here
 };
-
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 // ---- The object --------------------------------------------------------------------------------
 
@@ -115,10 +108,10 @@ static bool run(struct bake *bake, struct pel_volume *volume,
     size_t voxels = pel_volume_voxel_count(volume), batch = BATCH_FIRST;
     for (size_t first = 0; first < voxels;) {
         size_t count = voxels - first < batch ? voxels - first : batch;
-        double start = now_ms();
+        double start = pel_clock_ms();
         if (!run_batch(bake, volume, first, count, options->wrap))
             return false;
-        double took = now_ms() - start;
+        double took = pel_clock_ms() - start;
         first += count;
         if (options->progress && !options->progress((double)first / (double)voxels, options->user))
             return pel_fail(PEL_ERROR_ARGUMENT, "the hypertexture was abandoned");

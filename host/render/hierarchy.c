@@ -6,7 +6,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "accel/bvh.h"
 #include "accel/cluster.h"
@@ -19,12 +18,6 @@ struct nodes {
     struct bvh_node *list; // owned
     size_t count;
 };
-
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 size_t pel_hierarchy_bricks(const struct pel_world *world, int p, int size, size_t dims[3]) {
     size_t cells[3], count = 1, across = (size_t)(size / world->cell_side);
@@ -58,10 +51,10 @@ static bool build_parts(struct pel_hierarchy *hierarchy, const struct pel_world 
         const uint8_t *bricks = active + world->bytes.parts[p].cells;
         size_t count = pel_hierarchy_bricks(world, p, settings->size, dims);
         struct pel_clusters clusters;
-        double start = now_ms();
+        double start = pel_clock_ms();
         if (!pel_clusters_find(&clusters, bricks, dims, settings->apart ? 1 : PEL_CLUSTER_LARGEST))
             return false;
-        double clustered = now_ms();
+        double clustered = pel_clock_ms();
         for (size_t i = 0; i < count; i++)
             statistics->active += bricks[i] != 0;
         statistics->total += count;
@@ -72,7 +65,7 @@ static bool build_parts(struct pel_hierarchy *hierarchy, const struct pel_world 
         if (!good)
             return false;
         statistics->cluster_ms += clustered - start;
-        statistics->tree_ms += now_ms() - clustered;
+        statistics->tree_ms += pel_clock_ms() - clustered;
     }
     return true;
 }

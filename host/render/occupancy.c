@@ -9,19 +9,12 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/memory.h"
 #include "shared/grid.h"
 #include "world/bricks.h"
 
 enum { GROUP = 16 };
-
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device, size_t cells) {
     if (occupancy->cells && occupancy->scratch && cells <= occupancy->cell_count)
@@ -193,7 +186,7 @@ static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *
                             double start_ms) {
     uint8_t *active = pel_allocate(world->cell_count, 1);
     bool good = active && pel_buffer_read(occupancy->cells, 0, world->cell_count, active);
-    double activity_ms = now_ms() - start_ms;
+    double activity_ms = pel_clock_ms() - start_ms;
     good = good && pel_hierarchy_build(&occupancy->hierarchy, device, world, active, bricks);
     occupancy->hierarchy.statistics.activity_ms = activity_ms;
     free(active);
@@ -207,7 +200,7 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
                           enum pel_skip skip) {
     if ((skip == PEL_SKIP_NONE && !world->pool) || world->bytes.part_count == 0)
         return make_room(occupancy, device, 1);
-    double start_ms = now_ms();
+    double start_ms = pel_clock_ms();
     bool changed = false;
     if (!occupancy->kernel)
         occupancy->kernel = pel_kernel_sibling(render, "occupancy");

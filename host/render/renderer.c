@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -44,15 +43,9 @@ struct pel_renderer {
     float *tile_ms;      // what each tile takes, while a debug view asks for it
 };
 
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
-
 // Time since *mark, which moves to now.
 static double lap_ms(double *mark) {
-    double now = now_ms(), elapsed = now - *mark;
+    double now = pel_clock_ms(), elapsed = now - *mark;
     *mark = now;
     return elapsed;
 }
@@ -129,7 +122,7 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
                       const struct extent *extent, const struct pel_render_options *options,
                       struct pass pass) {
     enum { FIRST_BATCH = 64 };
-    double start = now_ms(), mark = start;
+    double start = pel_clock_ms(), mark = start;
     double batch_ms = options && options->batch_ms > 0 ? options->batch_ms : batch_default_ms;
     // The frame before may have had cheaper tiles, so the first batch only looks how these are.
     double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms / 4 : FIRST_BATCH;
@@ -144,11 +137,11 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
         // A first launch warms up what it needs, and should not count.
         if (renderer->tile_ms && tile == 0 && !run_batch(renderer, kernel, extent, 0, count))
             return false;
-        double begin_ms = now_ms();
+        double begin_ms = pel_clock_ms();
         if (!run_batch(renderer, kernel, extent, tile, count))
             return false;
         for (size_t i = 0; renderer->tile_ms && i < count; i++)
-            renderer->tile_ms[tile + i] = (float)((now_ms() - begin_ms) / (double)count);
+            renderer->tile_ms[tile + i] = (float)((pel_clock_ms() - begin_ms) / (double)count);
         tile += count;
         double finished = pass.number + (double)tile / (double)extent->tiles;
         if (options && options->progress &&
@@ -158,7 +151,7 @@ static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
         double per_ms = (double)count / fmax(lap_ms(&mark), 0.05);
         batch = fmin(per_ms * batch_ms, 4.0 * (double)count);
     }
-    renderer->tiles_per_ms = (double)extent->tiles / fmax(now_ms() - start, 0.05);
+    renderer->tiles_per_ms = (double)extent->tiles / fmax(pel_clock_ms() - start, 0.05);
     return true;
 }
 
@@ -231,7 +224,7 @@ static size_t choose_group(const struct pel_renderer *renderer, const struct pel
 static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pel_scene *scene,
                                   const struct pel_layout *layout, const struct pel_world *world,
                                   struct extent *extent, struct pel_render_statistics *statistics) {
-    double mark = now_ms();
+    double mark = pel_clock_ms();
     struct pel_device *device = renderer->device;
     int lanes = statistics->lanes;
     struct pel_variant variant =
@@ -310,7 +303,7 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
                              const struct pel_scene *scene, const struct extent *extent,
                              bool supersampling, const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
-    double mark = now_ms();
+    double mark = pel_clock_ms();
     struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
@@ -349,7 +342,7 @@ static struct pel_image *render_background(const struct pel_world *world) {
 static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
                  struct pel_layout *layout, struct pel_world *world,
                  struct pel_render_statistics *statistics) {
-    double mark = now_ms();
+    double mark = pel_clock_ms();
     const struct pel_device_info *info = pel_device_describe(renderer->device);
     *statistics = (struct pel_render_statistics){0};
     if (!pel_settings_check(scene))

@@ -1,14 +1,7 @@
 // stereo.c - the pictures of two eyes: two frames of one renderer, of scenes that differ in the
 // camera only, so that nothing else travels to the device for the second one.
-#include <time.h>
 
 #include "render/frame.h"
-
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 // Progress of one eye, as a part of both.
 struct part {
@@ -66,14 +59,14 @@ bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_sc
         }
         seen.camera = cameras[i];
         struct pel_render_statistics of_frame;
-        double begin_ms = now_ms();
+        double begin_ms = pel_clock_ms();
         eyes[i] = pel_frame_render(renderer, &seen, &of_eye, &of_frame);
         if (!eyes[i]) {
             pel_image_destroy(eyes[0]);
             eyes[0] = NULL;
             return false;
         }
-        statistics->stereo.eye_ms[i] = now_ms() - begin_ms;
+        statistics->stereo.eye_ms[i] = pel_clock_ms() - begin_ms;
         statistics->stereo.eye_samples[i] = of_frame.samples;
         add_statistics(statistics, &of_frame);
     }
@@ -106,10 +99,10 @@ struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struc
     struct pel_image *eyes[2];
     if (!pel_renderer_render_eyes(renderer, scene, options, statistics, eyes))
         return NULL;
-    double begin_ms = now_ms();
+    double begin_ms = pel_clock_ms();
     bool odd = begins_with_the_other_eye(scene);
     struct pel_image *image = pel_stereo_compose(&scene->stereo, eyes[odd], eyes[!odd]);
-    statistics->stereo.compose_ms = now_ms() - begin_ms;
+    statistics->stereo.compose_ms = pel_clock_ms() - begin_ms;
     pel_image_destroy(eyes[0]);
     pel_image_destroy(eyes[1]);
     return image;

@@ -61,27 +61,26 @@ static void put_input(struct pel_latency *latency, struct pel_state *state) {
     pel_event_push(&state->queue, &event);
     latency->version = state->version;
     latency->unfinished += state->status.busy;
-    latency->put_ms = pel_state_clock_ms();
+    latency->put_ms = pel_clock_ms();
     latency->waiting = true;
 }
 
 void pel_latency_begin_turn(struct pel_latency *latency, struct pel_state *state) {
     if (!latency->began) {
         latency->began = state->shown_count > 0 && state->shown.final;
-        latency->next_ms = pel_state_clock_ms() + pause_ms;
+        latency->next_ms = pel_clock_ms() + pause_ms;
         if (latency->began)
             latency->full_ms = state->shown.frame_ms;
         return;
     }
-    if (!latency->waiting && !pel_latency_is_over(latency) &&
-        pel_state_clock_ms() >= latency->next_ms)
+    if (!latency->waiting && !pel_latency_is_over(latency) && pel_clock_ms() >= latency->next_ms)
         put_input(latency, state);
 }
 
 void pel_latency_end_turn(struct pel_latency *latency, const struct pel_state *state) {
     if (!latency->waiting || state->shown.id <= latency->version)
         return;
-    double now_ms = pel_state_clock_ms();
+    double now_ms = pel_clock_ms();
     latency->ms[latency->count++] = now_ms - latency->put_ms;
     latency->waiting = false;
     latency->next_ms = now_ms + pause_ms;

@@ -3,18 +3,11 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <time.h>
-
-double pel_state_clock_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 void pel_state_renew(struct pel_state *state) {
     state->version++;
     state->picked = false;
-    state->changed_ms = pel_state_clock_ms();
+    state->changed_ms = pel_clock_ms();
     state->redraw = true;
 }
 
@@ -70,6 +63,6 @@ void pel_state_say(struct pel_state *state, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(state->message, sizeof state->message, format, arguments);
     va_end(arguments);
-    state->message_ms = pel_state_clock_ms();
+    state->message_ms = pel_clock_ms();
     state->redraw = true;
 }

@@ -149,6 +149,4 @@ double pel_state_aspect(const struct pel_state *state);
 // Says something to the user, in the window.
 void pel_state_say(struct pel_state *state, const char *format, ...) PEL_PRINTF(2, 3);
 
-double pel_state_clock_ms(void);
-
 #endif

@@ -222,7 +222,7 @@ static bool is_over(const struct pel_state *state) {
 static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes) {
     while (!is_over(state)) {
         pel_window_wait(wait_seconds(state));
-        double now_ms = pel_state_clock_ms();
+        double now_ms = pel_clock_ms();
         pel_hand_tick(state, (now_ms - state->now_ms) / 1e3);
         state->now_ms = now_ms;
         if (state->latency)
@@ -269,7 +269,7 @@ static enum pel_error start(struct pel_state *state, char *sentence, size_t byte
     state->compare.cell_px = 48;
     state->compare.period_s = 1;
     state->opacity_point = state->colour_point = -1;
-    state->now_ms = pel_state_clock_ms();
+    state->now_ms = pel_clock_ms();
     if (state->options->script) {
         state->script = pel_script_load(state->options->script, sentence, bytes);
         if (!state->script)

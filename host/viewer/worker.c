@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "viewer/crew.h"
 #include "viewer/save.h"
@@ -56,12 +55,6 @@ struct frame {
     double begin_ms, patience_ms; // gives way to a new request only after this long
 };
 
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
-
 static void say(struct pel_worker *worker, const char *sentence) {
     pthread_mutex_lock(&worker->mutex);
     snprintf(worker->sentence, sizeof worker->sentence, "%s", sentence);
@@ -75,7 +68,7 @@ static bool go_on(double finished, void *user) {
     const struct frame *frame = user;
     atomic_store(&frame->worker->finished, finished);
     return !atomic_load(&frame->worker->overtaken) ||
-           now_ms() - frame->begin_ms < frame->patience_ms;
+           pel_clock_ms() - frame->begin_ms < frame->patience_ms;
 }
 
 // ---- The thread --------------------------------------------------------------------------------
@@ -84,7 +77,7 @@ static bool go_on(double finished, void *user) {
 static void learn(struct pel_worker *worker, const struct frame *frame, bool whole,
                   double build_ms) {
     double share = whole ? 1 : atomic_load(&worker->finished);
-    double ms = now_ms() - frame->begin_ms - build_ms;
+    double ms = pel_clock_ms() - frame->begin_ms - build_ms;
     if (share > 0.02 && ms > 0)
         pel_pace_learn(&worker->pace, &frame->request->scenes[0]->render, &frame->quality,
                        ms / share);
@@ -105,7 +98,7 @@ static void hand_over(struct pel_worker *worker, struct pel_picture *picture) {
 static bool show(struct pel_worker *worker, const struct pel_request *request,
                  const struct pel_quality *quality, bool quick, bool final) {
     struct frame frame = {.worker = worker, .request = request, .quality = *quality};
-    frame.begin_ms = now_ms();
+    frame.begin_ms = pel_clock_ms();
     frame.patience_ms = quick ? overdue * request->target_ms : 0;
     atomic_store(&worker->finished, 0);
     pthread_mutex_lock(&worker->mutex);
@@ -120,7 +113,7 @@ static bool show(struct pel_worker *worker, const struct pel_request *request,
         learn(worker, &frame, picture != NULL, picture ? picture->statistics.build_ms : 0);
     if (picture) {
         picture->final = final;
-        picture->frame_ms = now_ms() - frame.begin_ms;
+        picture->frame_ms = pel_clock_ms() - frame.begin_ms;
         hand_over(worker, picture);
         return true;
     }
@@ -160,7 +153,7 @@ static bool go_on_saving(double finished, void *user) {
 static void save_one(struct pel_worker *worker) {
     struct pel_scene *scene = worker->saves[0].scene;
     char *path = worker->saves[0].path;
-    worker->begin_ms = now_ms();
+    worker->begin_ms = pel_clock_ms();
     atomic_store(&worker->finished, 0);
     pthread_mutex_unlock(&worker->mutex);
     struct pel_renderer *renderer = pel_crew_first(worker->crew);
@@ -197,7 +190,7 @@ static void *run(void *user) {
         struct pel_request request = worker->pending;
         worker->pending = (struct pel_request){0};
         atomic_store(&worker->overtaken, false);
-        worker->begin_ms = now_ms();
+        worker->begin_ms = pel_clock_ms();
         pthread_mutex_unlock(&worker->mutex);
         bool done = work(worker, &request);
         pthread_mutex_lock(&worker->mutex);
@@ -216,7 +209,7 @@ static void *run(void *user) {
 void pel_worker_ask(struct pel_worker *worker, struct pel_worker_status *status) {
     pthread_mutex_lock(&worker->mutex);
     status->busy = worker->busy || worker->pending.view_count > 0 || worker->save_count > 0;
-    status->running_ms = worker->busy ? now_ms() - worker->begin_ms : 0;
+    status->running_ms = worker->busy ? pel_clock_ms() - worker->begin_ms : 0;
     status->finished = atomic_load(&worker->finished);
     memcpy(status->sentence, worker->sentence, sizeof status->sentence);
     memcpy(status->saved, worker->saved, sizeof status->saved);

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "accel/grid.h"
 #include "base/error.h"
@@ -19,12 +18,6 @@
 #include "world/world.h"
 
 enum { SMALLEST = 8, RAYS = 64 };
-
-static double now_ms(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec * 1e3 + (double)time.tv_nsec * 1e-6;
-}
 
 // The ranges of the smallest bricks, as they would be stored, border included.
 static bool measure_volume(struct pel_grid *grid, const struct pel_volume *volume) {
@@ -179,17 +172,17 @@ static bool look(double *depth, struct pel_brick_statistics *bricks, const struc
                  int instance, const struct pel_grid *grid, const uint8_t *active,
                  uint32_t largest) {
     struct pel_clusters clusters;
-    double start = now_ms();
+    double start = pel_clock_ms();
     *depth = 0;
     if (!pel_clusters_find(&clusters, active, grid->cells, largest))
         return false;
-    double clustered = now_ms();
+    double clustered = pel_clock_ms();
     bool good = true;
     if (clusters.count > 0) {
         struct bvh_node *nodes = pel_allocate(2 * clusters.count - 1, sizeof *nodes);
         good = nodes && pel_bricks_build(nodes, &clusters, (int)grid->side);
         if (bricks)
-            bricks->tree_ms = now_ms() - clustered;
+            bricks->tree_ms = pel_clock_ms() - clustered;
         good = good && mean_depth(depth, scene, instance, nodes);
         free(nodes);
     }
@@ -220,9 +213,9 @@ bool pel_scene_measure_bricks(const struct pel_scene *scene, int instance,
             double_bricks(&grid);
         size_t total = grid.cells[0] * grid.cells[1] * grid.cells[2];
         *report = (struct pel_brick_report){.bricks = {.size = (int)grid.side, .total = total}};
-        double start = now_ms();
+        double start = pel_clock_ms();
         find_active(active, &grid, scene, instance, &table, counts);
-        report->bricks.activity_ms = now_ms() - start;
+        report->bricks.activity_ms = pel_clock_ms() - start;
         for (size_t i = 0; i < total; i++)
             report->bricks.active += active[i];
         good = look(&report->depth, &report->bricks, scene, instance, &grid, active,

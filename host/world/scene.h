@@ -17,4 +17,16 @@ void pel_volume_source_finish(struct pel_volume_source *source);
 // Loads or generates what the source says. The caller owns it; NULL as pel_volume_load fails.
 struct pel_volume *pel_volume_source_open(const struct pel_volume_source *source);
 
+// Points in world millimetres; owned, NULL where there are none.
+struct pel_points {
+    double (*at)[3];
+    size_t count;
+};
+
+// Adds points in whose convex hull all lies that an instance's transfer function, which must be
+// resolved, shows of it; the corners of its box where that is nothing, or where it has no voxels.
+// False (MEMORY).
+bool pel_instance_visible_hull(const struct pel_scene *scene, int instance,
+                               struct pel_points *points);
+
 #endif

@@ -4,9 +4,11 @@
 #include "world/scene_plan.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "camera/camera.h"
+#include "world/scene.h"
 #include "world/scene_write.h"
 
 static const char *const camera_keys[] = {"comment", "view",  "fit", "eye",
@@ -23,7 +25,7 @@ static void replace(double values[], const double given[], int count) {
             values[i] = given[i];
 }
 
-// `fit` names a volume, or "all" of them.
+// `fit` names a volume, or "all" of them, or what is "visible" of all.
 static bool read_fit(struct pel_camera_plan *plan, const struct pel_scene *scene) {
     struct pel_scene_node node;
     const char *name;
@@ -31,7 +33,9 @@ static bool read_fit(struct pel_camera_plan *plan, const struct pel_scene *scene
         return true;
     if (!pel_node_get_text(&plan->node, "fit", &name))
         return false;
-    return strcmp(name, "all") == 0 || pel_scene_find_instance(scene, &node, name, &plan->fit);
+    plan->fit_visible = strcmp(name, "visible") == 0;
+    return plan->fit_visible || strcmp(name, "all") == 0 ||
+           pel_scene_find_instance(scene, &node, name, &plan->fit);
 }
 
 bool pel_scene_read_camera(struct pel_camera_plan *plan, const struct pel_scene_node *root,
@@ -95,12 +99,31 @@ void pel_scene_write_viewpoint(struct pel_scene_writer *writer, json_t *object,
     pel_write_numbers(writer, object, "shift", 2, camera->shift);
 }
 
-// What the camera is to see: one instance, all visible ones, or simply all when none is visible.
-static void find_bounds(const struct pel_scene *scene, int fit, struct pel_bounds *bounds) {
-    if (fit >= 0)
-        pel_instance_bounds(scene, fit, bounds);
-    else if (!pel_scene_bounds(scene, bounds))
-        pel_instance_bounds(scene, 0, bounds);
+// Fits the camera to one instance, to all that are not hidden, or simply to the first when all are.
+static bool fit_boxes(struct pel_scene *scene, const struct pel_camera_plan *plan, const char *view,
+                      double aspect) {
+    struct pel_bounds bounds;
+    if (plan->fit >= 0)
+        pel_instance_bounds(scene, plan->fit, &bounds);
+    else if (!pel_scene_bounds(scene, &bounds))
+        pel_instance_bounds(scene, 0, &bounds);
+    return pel_camera_fit(&scene->camera, view, &bounds, aspect);
+}
+
+// Fits the camera to what can be seen of all instances that are not hidden.
+static bool fit_visible(struct pel_scene *scene, const struct pel_camera_plan *plan,
+                        const char *view, double aspect) {
+    struct pel_points points = {0};
+    bool good = true;
+    for (int i = 0; good && i < scene->instance_count; i++)
+        good = scene->instances[i].hidden || pel_instance_visible_hull(scene, i, &points);
+    if (good && points.count == 0)
+        good = fit_boxes(scene, plan, view, aspect);
+    else if (good)
+        good = pel_camera_fit_points(&scene->camera, view, points.count,
+                                     (const double(*)[3])points.at, aspect);
+    free(points.at);
+    return good;
 }
 
 // Makes sure that the camera has axes. An up vector nobody chose gives way to anterior when the
@@ -123,10 +146,9 @@ bool pel_scene_place_camera(struct pel_scene *scene, const struct pel_camera_pla
     camera->orthographic = given->orthographic;
     replace(&camera->fov_deg, &given->fov_deg, 1);
 
-    struct pel_bounds bounds;
-    find_bounds(scene, plan->fit, &bounds);
     double aspect = (double)scene->render.width / scene->render.height;
-    if (!pel_camera_fit(camera, plan->view ? plan->view : default_view, &bounds, aspect))
+    const char *view = plan->view ? plan->view : default_view;
+    if (!(plan->fit_visible ? fit_visible : fit_boxes)(scene, plan, view, aspect))
         return pel_node_fail_in(&plan->node);
 
     // An explicit line of sight is upright in the world unless it says otherwise.

@@ -112,7 +112,8 @@ static json_t *describe_files(const char *const *paths, int path_count) {
             return NULL;
         }
     }
-    json_t *root = json_pack("{s:{s:s}, s:o}", "camera", "view", "oblique", "volumes", volumes);
+    json_t *root = json_pack("{s:{s:s, s:s}, s:o}", "camera", "view", "oblique", "fit", "visible",
+                             "volumes", volumes);
     if (!root)
         pel_fail(PEL_ERROR_MEMORY, "cannot allocate a scene");
     return root;

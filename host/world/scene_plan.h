@@ -14,7 +14,8 @@
 struct pel_camera_plan {
     struct pel_scene_node node;
     const char *view; // borrowed; NULL takes the default
-    int fit;          // the instance to fit into the picture; -1 = all visible ones
+    int fit;          // the instance to fit into the picture; -1 = all that are not hidden
+    bool fit_visible; // only what can be seen of them
     struct pel_camera given;
 };
 

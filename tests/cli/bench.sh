@@ -87,6 +87,11 @@ check_lines task.json '[c["lanes"] for c in x if c["name"].endswith(("lane", "la
 check_lines task.json 'len(x) == 31 and "baseline" not in x[24] and all(c["baseline"] == 25 for c in x[25:])'
 expect 2 '^pellucid: --peer mute: never gave a time: its last line' bench task --size 16x12 --frames 1 --peer 'mute=echo hello'
 
+# Some cases alone, with what they are compared with.
+expect 0 'T2, grid' bench task --size 16x12 --frames 1 --only 'T2, grid x1 ' --json some.json
+check_lines some.json '[(c["name"], c["volumes"]) for c in x] == [("T2", 1), ("T2, grid", 1)] and x[1]["baseline"] == 1'
+expect 2 "no case of 31 is like 'T9'" bench task --size 16x12 --only T9
+
 # A sweep narrowed to one kernel, and the thesis's tables with its figures and ours.
 expect 0 '^\| *3 \| 4 work-items in 4 rows ' bench workgroup --lanes 1 --work-group 4 --size 16x12 --frames 1 --json groups.json
 check_lines groups.json '[c["work_group_rows"] for c in x] == [1, 2, 4] and all(c["work_group"] == 4 and c["kernel_max_work_group"] >= 4 for c in x)'

@@ -1,7 +1,6 @@
 # cli.bash - for the scripts of tests/cli: runs $PELLUCID in a folder of its own and checks what it says.
 set -u
 # OpenCL implementations keep some memory until the end; with a sanitizer that must not count as ours.
-export LSAN_OPTIONS=suppressions=$SOURCE/tests/support/leaks:print_suppressions=0
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1

@@ -1,4 +1,6 @@
 // Tests of good scene files: they become the structs that follow from their numbers by hand.
+#include <math.h>
+
 #include "support/scene_file.h"
 
 static struct pel_scene *load(const char *quoted) {
@@ -135,7 +137,7 @@ static void test_backgrounds(void **state) {
         const char *text;
         double rgba[4];
     } cases[] = {
-        {"'white'", {1, 1, 1, 1}},
+        {"'#ffffff'", {1, 1, 1, 1}},
         {"'none'", {0, 0, 0, 0}},
         {"'#00ff0000'", {0, 1, 0, 0}},
         {"[0.25, 0.5, 0.75]", {0.25, 0.5, 0.75, 1}},
@@ -182,6 +184,37 @@ static void test_camera(void **state) {
     scene = load("{'camera': {'view': 'left', 'fit': 'second'}, 'volumes': [{" TEST_VOLUME "}, {"
                  "'name': 'second', 'transform': {'translate': [100, 0, 0]}, " TEST_VOLUME "}]}");
     assert_triple(scene->camera.target, 100.5, 1, 1.5);
+    pel_scene_destroy(scene);
+}
+
+// A ball of 24 mm in a box of 64 mm, and a corner of a volume: only what shows fills the picture.
+static void test_visible_fit(void **state) {
+    (void)state;
+    static const char *const views[] = {"superior", "left", "oblique"};
+    for (int i = 0; i < 3; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "{'camera': {'view': '%s', 'fit': 'visible', 'orthographic': true},"
+                 " 'render': {'size': [100, 100]},"
+                 " 'volumes': [{'generate': {'kind': 'sphere', 'size': 33}, 'transfer':"
+                 " {'opacities': [[0, 0], [0.001, 1]], 'colours': [[0, '#ffffff']]}}]}",
+                 views[i]);
+        struct pel_scene *scene = load(text);
+        assert_triple(scene->camera.target, 0, 0, 0);
+        // A voxel less than the ball, and as much more as an octagon has around a circle.
+        double radius = scene->camera.height_mm / 2 * 0.95;
+        assert_true(radius > 24 - 2 && radius < 24 / cos(3.14159265358979 / 8) + 0.1);
+        pel_scene_destroy(scene);
+    }
+    // Of the values 0..23 only those from 18 on, which are the last slice; then nothing at all.
+    struct pel_scene *scene = load("{'camera': {'fit': 'visible'}, 'volumes': [{" TEST_VOLUME
+                                   ", 'transfer': {'opacities': [[17, 0], [18, 1]],"
+                                   " 'colours': [[0, '#ffffff']]}}]}");
+    assert_triple(scene->camera.target, 0.5, 1, 3);
+    pel_scene_destroy(scene);
+    scene = load("{'camera': {'fit': 'visible'}, 'volumes': [{" TEST_VOLUME
+                 ", 'transfer': {'opacities': [[17, 0]], 'colours': [[0, '#ffffff']]}}]}");
+    assert_triple(scene->camera.target, 0.5, 1, 1.5);
     pel_scene_destroy(scene);
 }
 
@@ -360,7 +393,8 @@ static void test_files(void **state) {
         fail_msg("%s", pel_error_message());
     assert_int_equal(scene->instance_count, 2);
     assert_int_equal(scene->volume_count, 2);
-    assert_triple(scene->camera.target, 0.5, 1, 1.5);
+    // The lowest slice of values shows nothing, and is left out of the view.
+    assert_true(scene->camera.target[2] > 1.75);
     // The first is grey, the second is not.
     const struct pel_transfer *first = scene->instances[0].transfer;
     const struct pel_transfer *second = scene->instances[1].transfer;
@@ -393,7 +427,7 @@ int main(void) {
         cmocka_unit_test(test_bounds),        cmocka_unit_test(test_sharing),
         cmocka_unit_test(test_overrides),     cmocka_unit_test(test_generated),
         cmocka_unit_test(test_other_files),   cmocka_unit_test(test_fsl),
-        cmocka_unit_test(test_files),
+        cmocka_unit_test(test_files),         cmocka_unit_test(test_visible_fit),
     };
     return cmocka_run_group_tests(tests, test_write_volumes, NULL);
 }
