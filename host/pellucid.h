@@ -211,8 +211,9 @@ struct pel_generate_options {
 // Kinds: "sphere" (signed distance field), "box", "shells", "c60" (electron density of a
 // buckyball from its 60 atom positions, after Romero 2009), "hydrogen" (an orbital),
 // "marschner-lobb" (Marschner & Lobb 1994), "shepp-logan" (the 3-D head), "head-ct" and "head-mri"
-// (one synthetic head, the MRI displaced by a known rigid transform), "head-pair" (the CT, or with
-// `second` the MRI). The list ends with NULL.
+// (one synthetic head, the MRI displaced by a known rigid transform), "head-labels" (its tissues: 1
+// skin, 2 muscle, 3 bone, 4 marrow, 5 teeth, 6 fluid, 7 grey and 8 white matter, 9 eye, 10 lens),
+// "head-pair" (the CT, or with `second` the MRI). The list ends with NULL.
 PEL_API const char *const *pel_generator_names(void);
 PEL_API struct pel_volume *pel_volume_generate(const char *kind,
                                                const struct pel_generate_options *options);
@@ -490,6 +491,23 @@ struct pel_clip {
     double xyzw[4];   // rotation of the box about its middle; all zero for none
 };
 
+#define PEL_MASK_RANGE_MAX 32
+
+// Values from low to high, both included, in the file's own unit. A label is a range of its own.
+struct pel_value_range {
+    double low, high;
+};
+
+// An instance is shown only where another one's volume, a label map for example, has a value in one
+// of the ranges, taken from the nearest voxel; or only elsewhere. Whether the other one is hidden,
+// clipped or masked itself makes no difference. docs/mixing.md, "Masks".
+struct pel_mask {
+    int instance;    // whose values decide; not its own, and not one that it decides about in turn
+    int range_count; // 0: there is no mask
+    struct pel_value_range ranges[PEL_MASK_RANGE_MAX];
+    bool inverted;
+};
+
 // One volume as it stands in a scene. Several instances may show one volume.
 struct pel_instance {
     char name[64];
@@ -514,6 +532,7 @@ struct pel_instance {
     int clip_count;
     struct pel_clip clips[PEL_CLIP_MAX];
     double priority; // of PEL_MIX_PRIORITY: the greater one wins, of equals the first in the list
+    struct pel_mask mask;
 };
 
 #define PEL_LIGHT_MAX 8
@@ -744,8 +763,9 @@ PEL_API int pel_scene_add_file(struct pel_scene *scene, const char *path,
 // Adds the copy of an instance behind the others; both show one volume. Returns its index or -1.
 PEL_API int pel_scene_add_copy(struct pel_scene *scene, int instance);
 
-// Takes one instance out of the list, and its volume out of memory when nothing else shows it. The
-// last one cannot be removed (ARGUMENT): a scene without volumes is none.
+// Takes one instance out of the list, and its volume out of memory when nothing else shows it. What
+// it was the mask of is then shown whole. The last one cannot be removed (ARGUMENT): a scene
+// without volumes is none.
 PEL_API bool pel_scene_remove(struct pel_scene *scene, int instance);
 
 // Takes an instance out of its place in the list and puts it at `to`; those between move up.

@@ -78,6 +78,11 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, rank);
     *out++ = OFFSET(struct part, medium);
     *out++ = OFFSET(struct part, recipe);
+    *out++ = OFFSET(struct part, mask_cuts);
+    *out++ = OFFSET(struct part, mask_part);
+    *out++ = OFFSET(struct part, mask_count);
+    *out++ = OFFSET(struct part, mask_range_count);
+    *out++ = OFFSET(struct part, mask_inverted);
     *out++ = OFFSET(struct part, cuts);
     *out++ = OFFSET(struct part, plane_count);
     *out++ = OFFSET(struct part, box_count);

@@ -52,8 +52,8 @@ INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table
 #if MODELS & MODELS_PREINTEGRATED
     if (spot.part->model == MODEL_PREINTEGRATED) {
         real strength, r, g, b;
-        seen = gather_segment(table, MEMORY_ARGUMENTS, gathered, &spot, sample->raw, &strength, &r,
-                              &g, &b);
+        seen = gather_segment(world, table, MEMORY_ARGUMENTS, crossing, gathered, &spot, sample->raw,
+                              &strength, &r, &g, &b);
         gathered->raw[spot.c] = CHOOSE(gathered->raw[spot.c], sample->raw, spot.present);
         gathered->at[spot.c] = CHOOSE(gathered->at[spot.c], spot.i, spot.present);
         if (!any_lane(seen)) {

@@ -86,6 +86,18 @@ static bool occupied(__constant struct part *part, float2 range, __global const 
     return counts[last + 1] > counts[first];
 }
 
+// Whether something may be visible in cell i of a part; 0 when it may.
+static uchar find_cell(__constant struct world *world, __constant struct part *part,
+                       __global const float2 *ranges, __global const uint *counts,
+                       struct cell_dims dims, int i, bool linear, uchar empty) {
+#if MASKED
+    if (mask_empties(world, part, ranges, i % dims.x, i / dims.x % dims.y, i / part->cell_slice))
+        return empty;
+#endif
+    const float2 range = reachable(part, ranges + part->ranges, dims, i);
+    return occupied(part, range, counts + part->visible, linear) ? 0 : empty;
+}
+
 // The distance of cell i, spread along one axis (0, 1, 2).
 static uchar spread(__constant struct part *part, __global const uchar *cell, struct cell_dims dims,
                     int i, uint axis) {
@@ -168,10 +180,7 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     in += part->cells;
     out += part->cells;
     if (pass == PASS_OCCUPY)
-        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, (int)i),
-                          visible + part->visible, linear)
-                     ? 0
-                     : (uchar)empty;
+        out[i] = find_cell(world, part, ranges, visible, dims, (int)i, linear, (uchar)empty);
     else if (pass == PASS_NAME)
         out[i] = name_node(part, in, dims, (int)i);
     else if (pass >= PASS_BRICK)

@@ -108,9 +108,17 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                     continue;
             }
 #endif
-            *samples -= present;
             const real x = cursor->ox + t * cursor->dx, y = cursor->oy + t * cursor->dy,
                        z = cursor->oz + t * cursor->dz;
+#if MASKED
+            const mask reached = present;
+            present &= mask_keeps(world, part, MEMORY_ARGUMENTS, x, y, z);
+            if (!any_lane(present)) {
+                pass_over(part, cells, cursor, i, reached);
+                continue;
+            }
+#endif
+            *samples -= present;
             const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
 #if MODELS
             if (part->model != MODEL_ABSORPTION) {
@@ -127,12 +135,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, layer->a);
 #endif
             if (!any_lane(visible)) {
-#if MIXING == MIXING_ORDERED
-                const integer next = cursor_leap(part, cells, cursor, cursor->next);
-                cursor->next = CHOOSE(cursor->next, next, present);
-#else
-                cursor->next = cursor_leap(part, cells, cursor, i + 1);
-#endif
+                pass_over(part, cells, cursor, i, present);
                 continue;
             }
             seen = true;

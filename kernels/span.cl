@@ -8,7 +8,14 @@
 #include "shared/probe.h"
 #include "clip.cl"
 #include "traverse/leap.cl"
+#include "shared/grid.h"
 
+#ifndef MASKED
+#define MASKED 0 // 1: where some volume is shown, another one decides
+#endif
+#if MASKED
+#include "mask.cl"
+#endif
 #if SKIP != SKIP_NONE || POOL
 #include "occupancy.cl"
 #endif
@@ -115,6 +122,17 @@ INLINE real enter_instance(__constant struct world *world, const struct ray *ray
     return near;
 }
 #endif
+
+// Takes the cursor of a part on from sample i, in which none of the lanes `present` there has shown anything.
+INLINE void pass_over(__constant struct part *part, __global const uchar *cells,
+                      struct cursor *cursor, integer i, mask present) {
+#if MIXING == MIXING_ORDERED
+    const integer next = cursor_leap(part, cells, cursor, cursor->next);
+    cursor->next = CHOOSE(cursor->next, next, present);
+#else
+    cursor->next = cursor_leap(part, cells, cursor, i + 1);
+#endif
+}
 
 // Finds the parts that the packet crosses and where each ray's samples begin.
 INLINE void find_crossing(__constant struct world *world, __global const uchar *cells,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/clip_option.h"
+#include "cli/mask_option.h"
 #include "cli/options.h"
 #include "cli/probe.h"
 
@@ -14,6 +15,7 @@ enum {
     KEY_CAMERA,
     KEY_MIX,
     KEY_CLIP,
+    KEY_MASK,
     KEY_STEP,
     KEY_STEP_MM,
     KEY_MODEL,
@@ -107,6 +109,10 @@ static const struct argp_option argp_options[] = {
     {"clip", KEY_CLIP, "SPEC", 0,
      "Keep one side of a plane, such as 'x<10' or 'z>-5.5' (world millimetres); the inside of a "
      "box, box=X0:X1,Y0:Y1,Z0:Z1, or its outside, cut=...; may be repeated",
+     0},
+    {"mask", KEY_MASK, "VOLUME=OTHER:VALUES", 0,
+     "Show a volume, by name or index, only where another one has these values, such as "
+     "ct=labels:7,8, 0=1:3..5 or 0=1:>=0.5; with != only elsewhere; may be repeated",
      0},
     {0, 0, NULL, 0, "Rendering:", 4},
     {"mix", KEY_MIX, "KIND", 0,
@@ -299,6 +305,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_CLIP:
         good = clip_option_add(&options->overrides, &options->clip_count, argument);
+        break;
+    case KEY_MASK:
+        good = mask_option_add(&options->overrides, argument);
         break;
     case KEY_MIX:
         overrides_add_text(&options->overrides, "render.mixing", argument);

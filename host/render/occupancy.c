@@ -13,6 +13,7 @@
 #include "base/memory.h"
 #include "shared/grid.h"
 #include "world/bricks.h"
+#include "world/mask.h"
 
 enum { GROUP = 16 };
 
@@ -56,7 +57,14 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
         copy->model = part->model;
         copy->surface_count = part->surface_count;
         copy->surface_values = part->surface_values;
+        copy->mask_cuts = part->mask_cuts;
+        copy->mask_count = part->mask_count;
+        copy->mask_part = part->mask_part;
+        copy->mask_inverted = part->mask_inverted;
+        copy->mask_range_count = part->mask_range_count;
     }
+    if (world->masked)
+        key->masks = pel_mask_hash(world);
 }
 
 static bool set_pass(struct pel_occupancy *occupancy, const struct pel_buffer *in,
@@ -152,6 +160,12 @@ static bool fill_pool(struct pel_occupancy *occupancy, const struct pel_world *w
         pel_world_cells(world, p, cells);
         for (size_t i = 0; i < cells[0] * cells[1] * cells[2]; i++)
             active[part->ranges + i] |= !empty[part->cells + i];
+    }
+    // Masks are read wherever samples are.
+    for (int p = world->bytes.part_count; good && p < world->part_total; p++) {
+        size_t cells[3];
+        pel_world_cells(world, p, cells);
+        memset(active + world->bytes.parts[p].ranges, 1, cells[0] * cells[1] * cells[2]);
     }
     statistics->size = world->cell_side;
     statistics->total = pages;

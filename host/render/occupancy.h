@@ -17,6 +17,7 @@ struct pel_occupancy_key {
     enum pel_skip skip; // for which
     int brick_size;     // of `bvh`
     bool apart;         //
+    uint64_t masks;     // a hash of what masks select, and of where
 };
 
 // Zero-initialise.

@@ -19,6 +19,7 @@ struct pel_variant {
     bool pool;      // bricks come from a pool
     int capacity;   // parts: 1, 8 or WORLD_PART_MAX
     bool clip;      // some part is clipped
+    bool masked;    // where some part is shown, another volume decides
     bool shading;   // some part needs normals
     bool style;     // other gradients than central differences, or opacity that follows them
     bool table_linear;

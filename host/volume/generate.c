@@ -32,6 +32,7 @@ static const struct kind {
     bool whole;          // U16 stores whole numbers
     bool fixed_size;     // does not scale with the spacing
     bool is_length;      // values are lengths, and scale as the object does
+    bool labels;         // whole numbers that every type stores as they are
     void (*fill)(const struct pel_generate_row *row, float *values);
 } kinds[] = {
     {.name = "sphere",
@@ -99,14 +100,22 @@ static const struct kind {
      .whole = true,
      .fixed_size = true,
      .fill = pel_generate_head_mri},
+    {.name = "head-labels",
+     .space = "head",
+     .extent_mm = {208, 240, 240},
+     .stretch = 1,
+     .high = 10,
+     .fixed_size = true,
+     .labels = true,
+     .fill = pel_generate_head_labels},
 };
 
 enum { KIND_COUNT = sizeof kinds / sizeof *kinds };
 
 const char *const *pel_generator_names(void) {
     static const char *const names[] = {
-        "sphere",      "box",     "shells",   "c60",       "hydrogen", "marschner-lobb",
-        "shepp-logan", "head-ct", "head-mri", "head-pair", NULL};
+        "sphere",      "box",     "shells",   "c60",         "hydrogen",  "marschner-lobb",
+        "shepp-logan", "head-ct", "head-mri", "head-labels", "head-pair", NULL};
     return names;
 }
 
@@ -217,10 +226,12 @@ struct pel_volume *pel_volume_generate(const char *kind_name,
     }
     if (options->type != PEL_VOXEL_F32) {
         bool byte = options->type == PEL_VOXEL_U8;
-        volume->slope =
-            !byte && kind->whole ? 1 : scale * (kind->high - kind->low) / (byte ? 255 : 65535);
+        volume->slope = kind->labels || (!byte && kind->whole)
+                            ? 1
+                            : scale * (kind->high - kind->low) / (byte ? 255 : 65535);
         volume->intercept = scale * kind->low;
     }
+    volume->labels = kind->labels;
     snprintf(volume->unit, sizeof volume->unit, "%s", kind->unit ? kind->unit : "");
     snprintf(volume->space, sizeof volume->space, "%s", kind->space);
     if (!fill(volume, kind, own, scale)) {

@@ -23,6 +23,7 @@ void pel_generate_c60(const struct pel_generate_row *row, float *values);
 void pel_generate_hydrogen(const struct pel_generate_row *row, float *values);
 void pel_generate_shepp_logan(const struct pel_generate_row *row, float *values);
 void pel_generate_head_ct(const struct pel_generate_row *row, float *values);
+void pel_generate_head_labels(const struct pel_generate_row *row, float *values);
 void pel_generate_head_mri(const struct pel_generate_row *row, float *values);
 
 // Sizes that the fields have in millimetres, where others need them.

@@ -1,4 +1,4 @@
-// generate_head.c - one synthetic head as a CT and an MRI scanner see it.
+// generate_head.c - one synthetic head as a CT and an MRI scanner see it, and its segmentation.
 //
 // The head is a list of ellipsoids painted over each other, outside in, each of one tissue; the
 // brain's is folded. CT gives each tissue its Hounsfield units, MRI a T1-weighted brightness. Edges
@@ -89,11 +89,18 @@ enum { PART_COUNT = sizeof parts / sizeof *parts };
 
 static const double edge_mm = 1.5;
 
+// A segmentation has the number of each tissue.
+static const float label[TISSUE_COUNT] = {
+    [AIR] = 0,   [SKIN] = 1, [MUSCLE] = 2, [BONE] = 3, [MARROW] = 4, [TEETH] = 5,
+    [FLUID] = 6, [GREY] = 7, [WHITE] = 8,  [EYE] = 9,  [LENS] = 10,
+};
+
 // Samples along a line in head coordinates, and what this scanner makes of each tissue.
 struct line {
     double start[3], step[3];
     int count;
     const float *brightness;
+    bool whole; // a sample is of one tissue alone
     float *values;
 };
 
@@ -102,7 +109,9 @@ static float ramp(double x, double width) {
     return (float)fmin(fmax(0.5 + x / width, 0), 1);
 }
 
-static void blend(float *value, float target, float weight) {
+static void blend(const struct line *line, float *value, float target, float weight) {
+    if (line->whole)
+        weight = weight >= 0.5F ? 1 : 0;
     *value += weight * (target - *value);
 }
 
@@ -122,9 +131,9 @@ static void paint_brain(const struct line *line, int i, double depth) {
     float grey = fmaxf(ramp(4 - depth, 2), ramp(0.7 - fold, 0.2) * ramp(19 - depth, 4));
     float fluid = ramp(0.18 - fold, 0.15) * ramp(14 - depth, 6);
     float value = line->brightness[WHITE];
-    blend(&value, line->brightness[GREY], grey);
-    blend(&value, line->brightness[FLUID], fluid);
-    blend(&line->values[i], value, ramp(depth, edge_mm));
+    blend(line, &value, line->brightness[GREY], grey);
+    blend(line, &value, line->brightness[FLUID], fluid);
+    blend(line, &line->values[i], value, ramp(depth, edge_mm));
 }
 
 // Paints one ellipsoid, mirrored at x = 0 if `side` is -1.
@@ -158,7 +167,7 @@ static void paint(const struct part *part, double side, const struct line *line)
         if (part->folded)
             paint_brain(line, i, depth);
         else
-            blend(&line->values[i], line->brightness[part->tissue], ramp(depth, edge_mm));
+            blend(line, &line->values[i], line->brightness[part->tissue], ramp(depth, edge_mm));
     }
 }
 
@@ -178,6 +187,17 @@ void pel_generate_head_ct(const struct pel_generate_row *row, float *values) {
         .step = {row->spacing[0], 0, 0},
         .count = row->count,
         .brightness = hounsfield,
+        .values = values,
+    });
+}
+
+void pel_generate_head_labels(const struct pel_generate_row *row, float *values) {
+    paint_head(&(struct line){
+        .start = {row->start[0], row->start[1], row->start[2]},
+        .step = {row->spacing[0], 0, 0},
+        .count = row->count,
+        .brightness = label,
+        .whole = true,
         .values = values,
     });
 }

@@ -117,4 +117,5 @@ void pel_clip_fill_part(struct pel_world *world, struct part *part, const struct
     part->plane_count = counts[PLANES];
     part->box_count = counts[BOXES];
     part->hole_count = counts[HOLES];
+    world->clipped |= counts[PLANES] + counts[BOXES] + counts[HOLES] > 0;
 }

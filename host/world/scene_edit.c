@@ -151,16 +151,31 @@ int pel_scene_add_copy(struct pel_scene *scene, int instance) {
     return scene->instance_count - 1;
 }
 
+// Lets masks follow their volumes to new places in the list; one whose volume is gone (-1) is none.
+static void renumber_masks(struct pel_scene *scene, const int places[PEL_VOLUME_MAX]) {
+    for (int i = 0; i < scene->instance_count; i++) {
+        struct pel_mask *mask = &scene->instances[i].mask;
+        if (mask->range_count == 0)
+            continue;
+        mask->instance = places[mask->instance];
+        if (mask->instance < 0)
+            *mask = (struct pel_mask){0};
+    }
+}
+
 bool pel_scene_remove(struct pel_scene *scene, int instance) {
     if (!check_instance(scene, instance))
         return false;
     if (scene->instance_count == 1)
         return pel_fail(PEL_ERROR_ARGUMENT, "the last volume cannot be removed");
-    int volume = scene->instances[instance].volume;
+    int volume = scene->instances[instance].volume, places[PEL_VOLUME_MAX];
+    for (int i = 0; i < scene->instance_count; i++)
+        places[i] = i == instance ? -1 : i - (i > instance);
     pel_instance_finish(&scene->instances[instance]);
     scene->instance_count--;
     for (int i = instance; i < scene->instance_count; i++)
         scene->instances[i] = scene->instances[i + 1];
+    renumber_masks(scene, places);
     if (!is_shown(scene, volume))
         drop_volume(scene, volume);
     return true;
@@ -170,10 +185,16 @@ bool pel_scene_move(struct pel_scene *scene, int instance, int to) {
     if (!check_instance(scene, instance) || !check_instance(scene, to))
         return false;
     struct pel_instance moved = scene->instances[instance];
-    int step = to > instance ? 1 : -1;
-    for (int i = instance; i != to; i += step)
+    int step = to > instance ? 1 : -1, places[PEL_VOLUME_MAX];
+    for (int i = 0; i < scene->instance_count; i++)
+        places[i] = i;
+    for (int i = instance; i != to; i += step) {
         scene->instances[i] = scene->instances[i + step];
+        places[i + step] = i;
+    }
     scene->instances[to] = moved;
+    places[instance] = to;
+    renumber_masks(scene, places);
     return true;
 }
 

@@ -77,6 +77,12 @@ bool pel_scene_read_material(struct pel_material *material, const struct pel_sce
 bool pel_scene_read_clips(const struct pel_scene_node *object, bool of_scene, int *count,
                           struct pel_clip clips[PEL_CLIP_MAX]);
 
+// What another volume's values leave of one: first which values, then, when all names are known,
+// which volume, and at last that no mask depends on itself.
+bool pel_scene_read_mask(struct pel_mask *mask, const struct pel_scene_node *volume);
+bool pel_scene_find_mask(struct pel_scene *scene, const struct pel_scene_plan *plan, int self);
+bool pel_scene_check_masks(const struct pel_scene *scene, const struct pel_scene_plan *plan);
+
 // A colour by name, as #rrggbb[aa] or as 3 or 4 numbers; without an alpha, rgba[3] stays.
 bool pel_scene_read_colour(double rgba[4], const struct pel_scene_node *object, const char *key);
 

@@ -12,35 +12,15 @@
 #include "world/scene.h"
 #include "world/scene_write.h"
 
-static const char *const volume_keys[] = {"comment",
-                                          "file",
-                                          "hypertexture",
-                                          "generate",
-                                          "raw",
-                                          "time",
-                                          "channel",
-                                          "name",
-                                          "visible",
-                                          "spacing",
-                                          "transform",
-                                          "transfer",
-                                          "density",
-                                          "extent",
-                                          "filter",
-                                          "palette",
-                                          "opacity_unit",
-                                          "shading",
-                                          "step",
-                                          "step_mm",
-                                          "model",
-                                          "iso",
-                                          "priority",
-                                          "preintegration",
-                                          "clip",
-                                          "gradient",
-                                          "gradient_opacity",
-                                          "silhouette",
-                                          NULL};
+static const char *const volume_keys[] = {
+    "comment",      "file",    "hypertexture", "generate",
+    "raw",          "time",    "channel",      "name",
+    "visible",      "spacing", "transform",    "transfer",
+    "density",      "extent",  "filter",       "palette",
+    "opacity_unit", "shading", "step",         "step_mm",
+    "model",        "iso",     "priority",     "preintegration",
+    "clip",         "mask",    "gradient",     "gradient_opacity",
+    "silhouette",   NULL};
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};
@@ -114,6 +94,7 @@ static bool read_volume(struct pel_instance *instance, struct pel_volume_plan *p
         !pel_scene_read_material(&instance->material, node) ||
         !pel_scene_read_style(instance, node) ||
         !pel_scene_read_clips(node, false, &instance->clip_count, instance->clips) ||
+        !pel_scene_read_mask(&instance->mask, node) ||
         !pel_node_get_number(node, "priority", &pel_any_number, &instance->priority) ||
         !pel_node_get_name(node, "extent", extent_names, &extent) ||
         !pel_node_get_name(node, "filter", filter_names, &filter))
@@ -147,6 +128,7 @@ static void write_volume(struct pel_scene_writer *writer, json_t *volume,
     pel_write_value(writer, volume, "transfer", pel_transfer_write(instance->transfer));
     pel_write_number(writer, volume, "density", instance->density, usual.density);
     pel_scene_write_clips(writer, volume, false, instance->clip_count, instance->clips);
+    pel_scene_write_mask(writer, volume, &instance->mask);
     pel_write_number(writer, volume, "priority", instance->priority, usual.priority);
     pel_scene_write_model(writer, volume, instance);
     pel_scene_write_material(writer, volume, &instance->material);
@@ -196,9 +178,10 @@ bool pel_scene_read_volumes(struct pel_scene *scene, struct pel_scene_plan *plan
             return false;
     }
     for (size_t i = 0; i < count; i++)
-        if (!read_fixed(scene, &plan->volume[i], (int)i) || !read_object(scene, plan, (int)i))
+        if (!read_fixed(scene, &plan->volume[i], (int)i) || !read_object(scene, plan, (int)i) ||
+            !pel_scene_find_mask(scene, plan, (int)i))
             return false;
-    return true;
+    return pel_scene_check_masks(scene, plan);
 }
 
 void pel_scene_write_volumes(struct pel_scene_writer *writer, json_t *root) {

@@ -63,6 +63,8 @@ void pel_scene_write_style(struct pel_scene_writer *writer, json_t *volume,
                            const struct pel_instance *instance);
 void pel_scene_write_clips(struct pel_scene_writer *writer, json_t *object, bool of_scene,
                            int count, const struct pel_clip *clips);
+void pel_scene_write_mask(struct pel_scene_writer *writer, json_t *volume,
+                          const struct pel_mask *mask);
 void pel_scene_write_material(struct pel_scene_writer *writer, json_t *volume,
                               const struct pel_material *material);
 

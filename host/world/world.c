@@ -13,6 +13,7 @@
 #include "world/brick.h"
 #include "world/clip.h"
 #include "world/lighting.h"
+#include "world/mask.h"
 #include "world/mixing.h"
 #include "world/model.h"
 #include "world/pairs.h"
@@ -362,6 +363,29 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
     return true;
 }
 
+// The volumes that decide where others are shown have parts of their own, as they may be hidden.
+static bool fill_masks(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_layout *layout, const double centre[3]) {
+    const struct part pattern = {.filter = FILTERS_NEAREST};
+    int first[PEL_VOLUME_MAX], count[PEL_VOLUME_MAX] = {0}, shown = world->bytes.part_count;
+    for (int p = 0; p < shown; p++) {
+        int mask = pel_mask_of(&scene->instances[world->instances[p]]);
+        if (mask < 0)
+            continue;
+        if (count[mask] == 0) {
+            first[mask] = world->bytes.part_count;
+            if (!fill_parts(world, scene, layout, &scene->instances[mask], &pattern, centre))
+                return false;
+            count[mask] = world->bytes.part_count - first[mask];
+        }
+        if (!pel_mask_fill_part(world, p, scene, layout->reader, first[mask], count[mask]))
+            return false;
+    }
+    world->part_total = world->bytes.part_count;
+    world->bytes.part_count = shown;
+    return true;
+}
+
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout) {
     memset(world, 0, sizeof *world);
@@ -394,7 +418,8 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     world->depth = parts > 1 && world->mixing != MIXING_OVER && world->mixing != MIXING_ORDERED;
     struct pel_table tables[PEL_VOLUME_MAX] = {{0}};
     bool good = build_tables(tables, world, scene);
-    good = good && fill_instances(world, scene, layout, tables, centre);
+    good = good && fill_instances(world, scene, layout, tables, centre) &&
+           fill_masks(world, scene, layout, centre);
     for (int k = 0; k < PEL_VOLUME_MAX; k++)
         pel_table_finish(&tables[k]);
     if (!good)
@@ -404,7 +429,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
 
 void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {
     const struct part *parts = world->bytes.parts;
-    size_t end = p + 1 < world->bytes.part_count ? parts[p + 1].cells : world->cell_count;
+    size_t end = p + 1 < world->part_total ? parts[p + 1].cells : world->cell_count;
     cells[0] = (size_t)parts[p].cell_row;
     cells[1] = (size_t)(parts[p].cell_slice / parts[p].cell_row);
     cells[2] = (end - parts[p].cells) / (size_t)parts[p].cell_slice;
@@ -415,6 +440,10 @@ double pel_world_value(const struct pel_scene *scene, int instance, enum pel_rea
     const struct pel_volume *volume = scene->volumes[scene->instances[instance].volume];
     double stored = raw * pel_reader_factor(reader, pel_voxel_class(volume->type));
     return volume->slope * (stored + stored_bias(volume->type)) + volume->intercept;
+}
+
+double pel_world_raw(const struct pel_volume *volume, double value) {
+    return (value - volume->intercept) / volume->slope - stored_bias(volume->type);
 }
 
 size_t pel_world_bytes(const struct pel_world *world) {

@@ -21,6 +21,8 @@ struct pel_world {
     int mixing;         // MIXING_*
     int models;         // MODELS_*
     int cut_count;      // of bytes.cuts, which end there
+    bool clipped;       // some part has planes or boxes
+    bool masked;        // where some part is shown, another volume decides
     bool table_linear;  // some table must be interpolated
     bool shaded;        // some part needs normals
     bool styled;        // other gradients than central differences, or opacity that follows them
@@ -28,6 +30,7 @@ struct pel_world {
     bool jitter;        // every ray has a phase of its own
     bool probe;         // one ray is to write down what it meets
     double centre[3];   // world millimetres of the origin of the kernels' world
+    int part_total;     // parts, with those of masks behind the ones that are shown
     int instances[WORLD_PART_MAX]; // which instance of the scene each part is of
     int live[RECIPE_LIVE_MAX]; // volumes that are worked out at every sample, in the order of their
                                // recipes
@@ -51,5 +54,8 @@ void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]);
 // The value, in the file's own unit, of what a reader gave for an instance's volume.
 double pel_world_value(const struct pel_scene *scene, int instance, enum pel_reader reader,
                        double raw);
+
+// The other way round: the stored voxel that stands for a value. The slope must not be 0.
+double pel_world_raw(const struct pel_volume *volume, double value);
 
 #endif

@@ -27,11 +27,12 @@ INLINE struct side find_side(__constant struct part *part, real raw) {
 }
 
 // What the step before the spot shows. Colours are weighted by strength, as those of entries that show nothing mean nothing.
-INLINE mask gather_segment(TABLE_SPACE const uint *table, MEMORY_PARAMETERS,
+INLINE mask gather_segment(__constant struct world *world, TABLE_SPACE const uint *table,
+                           MEMORY_PARAMETERS, const struct crossing *crossing,
                            const struct gathered *gathered, const struct spot *spot, real raw,
                            real *strength, real *r, real *g, real *b) {
     mask known;
-    const real before = raw_before(MEMORY_ARGUMENTS, gathered, spot, &known);
+    const real before = raw_before(world, MEMORY_ARGUMENTS, crossing, gathered, spot, &known);
     // Lanes without a value look up something that exists.
     const real back = CHOOSE((real)(0.0f), raw, spot->present);
     const struct side front_side = find_side(spot->part, CHOOSE(back, before, known));

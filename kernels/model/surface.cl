@@ -30,16 +30,37 @@ INLINE void shade_between(__constant struct world *world, MEMORY_PARAMETERS,
 #endif
 
 #if MODELS_SEGMENT
+// The lanes in which neither a cut-away box nor a mask has taken the spot's part away at a sample.
+INLINE mask is_left(__constant struct world *world, MEMORY_PARAMETERS,
+                    const struct crossing *crossing, const struct spot *spot, real t) {
+    mask left = (mask)(-1);
+#if CLIP
+    const real number = SAMPLE_NUMBER(crossing, spot->c, t);
+    left &= clip_keeps(world, spot->part, &crossing->ray,
+                       crossing->t_first + number * world->step_mm);
+#endif
+#if MASKED
+    const struct cursor *cursor = spot->cursor;
+    left &= mask_keeps(world, spot->part, MEMORY_ARGUMENTS, cursor->ox + t * cursor->dx,
+                       cursor->oy + t * cursor->dy, cursor->oz + t * cursor->dz);
+#endif
+    return left;
+}
+
 // The raw value one sample before the spot; lanes that have none are cleared in *known.
-INLINE real raw_before(MEMORY_PARAMETERS, const struct gathered *gathered, const struct spot *spot,
-                       mask *known) {
+INLINE real raw_before(__constant struct world *world, MEMORY_PARAMETERS,
+                       const struct crossing *crossing, const struct gathered *gathered,
+                       const struct spot *spot, mask *known) {
     real before = gathered->raw[spot->c];
     *known = spot->present & MASK(spot->i > spot->cursor->first);
     const mask leapt = *known & MASK(gathered->at[spot->c] != spot->i - 1);
     if (any_lane(leapt)) {
-        const integer at = cursor_clamp(spot->cursor, spot->i - 1);
-        const struct sample sample = sample_between(MEMORY_ARGUMENTS, spot, TO_REAL(at));
+        const real t = TO_REAL(cursor_clamp(spot->cursor, spot->i - 1));
+        const struct sample sample = sample_between(MEMORY_ARGUMENTS, spot, t);
         before = CHOOSE(before, sample.raw, leapt);
+#if CLIP || MASKED
+        *known &= ~leapt | is_left(world, MEMORY_ARGUMENTS, crossing, spot, t);
+#endif
     }
 #if VOXELS & VOXELS_F32
     *known &= MASK(before == before);
@@ -77,7 +98,7 @@ INLINE mask gather_surfaces(__constant struct world *world, MEMORY_PARAMETERS,
                             struct gathered *gathered, const struct crossing *crossing,
                             const struct spot *spot, real raw) {
     mask known, met = (mask)(0);
-    const real before = raw_before(MEMORY_ARGUMENTS, gathered, spot, &known);
+    const real before = raw_before(world, MEMORY_ARGUMENTS, crossing, gathered, spot, &known);
     __constant struct part *part = spot->part;
     __constant const float *values = (__constant const float *)&part->surface_values;
     // In the order in which the ray meets them. Back to front each comes before those already there.

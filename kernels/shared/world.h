@@ -18,8 +18,9 @@
 // 32 volumes, and room for the slabs of volumes too large for one buffer.
 #define WORLD_PART_MAX 64
 
-// Rows of clip planes and boxes: of 32 volumes, 8 boxes of three rows each and 8 of the scene.
-#define WORLD_CUT_MAX (32 * 16 * 3)
+// Rows of clip planes and boxes: of 32 volumes, 8 boxes of three rows each and 8 of the scene. And of masks: 32 ranges
+// of values for each part, and a matrix between each part and one of its mask's.
+#define WORLD_CUT_MAX (32 * 16 * 3 + 32 * WORLD_PART_MAX + 3 * 32 * 32)
 
 // The ray of picture-plane coordinates (u, v), in -1..1 upwards and to the right, starts at
 // eye + u * eye_right + v * eye_up and runs along forward + u * right + v * up.
@@ -80,12 +81,15 @@ struct part {
     i32 styled;                 // 1: opacity follows the gradient, as the next two say
     i32 ramp_count;             //
     i32 recipe; // 1 + number of what is worked out at every sample; 0: there are voxels
-    i32 pad[1];
+    i32 mask_cuts;  // index of the first of the rows of its mask (kernels/mask.cl)
+    i32 mask_part, mask_count; // the parts whose values decide where it is shown; 0: everywhere
+    i32 mask_range_count;      // ranges of values that are selected
+    i32 mask_inverted;         // 1: shown where none is
     float4 silhouette;          // base, strength and exponent; and the factor before all ramps
     float4 ramps[GRADIENT_RAMPS]; // start, 1 / width, in ranges of the table per mm; rise of the factor
 };
 
-SHARED_ASSERT(sizeof(struct part) == 432, part_size);
+SHARED_ASSERT(sizeof(struct part) == 448, part_size);
 
 struct world {
     struct camera camera;
@@ -113,7 +117,7 @@ struct world {
     float4 cuts[WORLD_CUT_MAX]; // only as many as there are reach the device
 };
 
-SHARED_ASSERT(sizeof(struct world) == 224 + 48 * LAMP_MAX + 432 * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
+SHARED_ASSERT(sizeof(struct world) == 224 + 48 * LAMP_MAX + 448 * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
               world_size);
 
 #endif

@@ -132,6 +132,16 @@ check_json 'x["device"] and x["driver"]'
 expect 0 '' render data/box.nii.gz "${small[@]}" -o json.png --json --supersample 2 --adaptive 0.25
 check_json '0 < x["refined"] < 1 and x["rays"] == 32 * 24 + round(4 * x["refined"] * 32 * 24)'
 
+# A mask: the sphere where the box is, and where it is not.
+expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" -o in.png --json --mask '1=0:0.5..0.9,1'
+expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" -o out.png --json --mask '1!=0:>=0.5' \
+    --set volumes.0.visible=false
+check_json 'x["samples_skipped"] > 0'
+png out.png '__import__("json").loads(texts["scene"])["volumes"][1]["mask"]["invert"] is True'
+expect 2 "^pellucid: --mask: '0:1' is not like 0=labels:7,8, ct!=labels:1,3..5 or ct=other:>=0.5" \
+    render data/box.nii.gz --mask 0:1
+expect 2 "volumes.0.mask.*'box.nii.gz' is this volume" render data/box.nii.gz --mask 0=0:1
+
 # A debug view is a picture of numbers, and one ray tells what it meets.
 expect 0 '' render data/box.nii.gz "${small[@]}" --debug samples -o samples.png --json
 check_json 'x["debug"]["min"] == 0 and abs(x["debug"]["mean"] * 32 * 24 - x["samples"]) < 1'

@@ -1,9 +1,10 @@
-// clip.c - docs/mixing.md, "Clipping".
+// clip.c - docs/mixing.md, "Clipping" and "Masks".
 #include "reference/clip.h"
 
 #include <math.h>
 
 #include "base/math.h"
+#include "reference/mask.h"
 
 // How deep inside p is, in the frame of the clip: below 0 it is outside.
 static double depth_inside(const struct pel_clip *clip, const double p[3]) {
@@ -31,9 +32,7 @@ bool reference_is_kept(const struct reference *reference, const struct reference
     struct pel_matrix back;
     pel_matrix_invert(&back, &instance->transform);
     pel_matrix_point(p_before, &back, p_world);
-    bool kept = true;
-    if (margin_mm)
-        *margin_mm = INFINITY;
+    bool kept = reference_mask_keeps(scene, instance, p_world, margin_mm);
     for (int n = 0; n < scene->clip_count + instance->clip_count; n++) {
         bool own = n >= scene->clip_count;
         const struct pel_clip *clip =

@@ -1,4 +1,4 @@
-// clip.h - what clip planes and boxes leave of a volume.
+// clip.h - what clip planes, boxes and masks leave of a volume.
 #ifndef PEL_TEST_REFERENCE_CLIP_H
 #define PEL_TEST_REFERENCE_CLIP_H
 

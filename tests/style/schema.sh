@@ -46,6 +46,7 @@ pairs = {
     "scene_read_pose.c:file_keys": (file, None),
     "scene_read_pose.c:rotation_keys": (rotation, "rotate"),
     "scene_read_clip.c:clip_keys": (defs["clip"], "clip"),
+    "scene_read_mask.c:mask_keys": (defs["mask"], "mask"),
     "scene_read_clip.c:plane_keys": (defs["plane"], "plane"),
     "scene_read_clip.c:box_keys": (defs["box"], "box"),
     "scene_read_light.c:light_keys": (defs["light"], "light"),
@@ -113,7 +114,7 @@ def place(section, key, value):
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
                "render": {}, "stereo": {}, "wall": {}, "region": {"place": [0, 0, 1, 1]}, "output": {}, "light": {}, "shading": {}, "silhouette": {}, "supersampling": {}, "iso": {"value": 1},
                "clip": {}, "plane": {"normal": [0, 0, 1]}, "box": {"size": [1, 1, 1]},
-               "bricks": {}, "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
+               "bricks": {}, "mask": {"volume": 1, "labels": 1}, "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
     if section == "transform":
         holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
                        "comment": {"file": "a"}}.get(key, {}))
@@ -145,7 +146,7 @@ def place(section, key, value):
         return {"volumes": [volume], "clip": [inner]}
     elif section == "light":
         return {"volumes": [volume], "lights": [holder]}
-    elif section in ("raw", "transform", "transfer", "shading", "silhouette", "iso"):
+    elif section in ("raw", "transform", "transfer", "shading", "silhouette", "iso", "mask"):
         volume[section] = holder
     return {"volumes": [volume], **(inner if section in ("camera", "render", "stereo", "animation", "output") else {})}
 for _, section in pairs.values():
