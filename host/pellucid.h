@@ -622,6 +622,8 @@ enum pel_debug {
 
 struct pel_render_settings {
     int width, height;      // pixels
+    int region[4];          // the part of it that is rendered: left and top edge, width and height
+                            // in pixels; all zero: all of it
     enum pel_mixing mixing; //
     double step;            // in voxels of the finest visible volume; > 0
     double step_mm;         // the same in millimetres, instead of `step`; 0 = as `step` says

@@ -14,10 +14,10 @@
 enum { PICTURE_MAX = 32768 };
 
 static const char *const render_keys[] = {
-    "comment",        "size",           "mixing",  "step",  "step_mm",
-    "phase",          "termination",    "origin",  "skip",  "bricks",
-    "supersampling",  "jitter",         "debug",   "model", "order",
-    "emission_scale", "preintegration", "quality", NULL};
+    "comment",        "size",           "mixing",  "step",   "step_mm",
+    "phase",          "termination",    "origin",  "skip",   "bricks",
+    "supersampling",  "jitter",         "debug",   "model",  "order",
+    "emission_scale", "preintegration", "quality", "region", NULL};
 static const char *const brick_keys[] = {"comment", "size", "cluster", "walk",
                                          "cull",    "pool", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
@@ -87,6 +87,34 @@ static bool read_size(struct pel_render_settings *render, const struct pel_scene
     render->width = (int)size[0];
     render->height = (int)size[1];
     return true;
+}
+
+static bool read_region(struct pel_render_settings *render, const struct pel_scene_node *object) {
+    struct pel_scene_node node;
+    double region[4];
+    const struct pel_range range = {.low = 0, .high = PICTURE_MAX};
+    if (!pel_node_member(&node, object, "region"))
+        return true;
+    if (!pel_node_check_numbers(&node, 4, &range, region))
+        return false;
+    for (int i = 0; i < 4; i++) {
+        render->region[i] = (int)region[i];
+        if (region[i] != floor(region[i]))
+            return pel_node_fail(&node, "must be whole numbers, not %g", region[i]);
+    }
+    if (region[2] < 1 || region[3] < 1 || region[0] + region[2] > render->width ||
+        region[1] + region[3] > render->height)
+        return pel_node_fail(&node, "%g, %g, %g, %g is not inside the picture of %d x %d",
+                             region[0], region[1], region[2], region[3], render->width,
+                             render->height);
+    return true;
+}
+
+static void write_region(struct pel_scene_writer *writer, json_t *object) {
+    const int *region = writer->scene->render.region;
+    if (region[2] > 0)
+        pel_write_numbers(writer, object, "region", 4,
+                          (double[]){region[0], region[1], region[2], region[3]});
 }
 
 static bool read_supersampling(struct pel_supersampling *supersampling,
@@ -163,6 +191,7 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
     int debug = (int)render->debug;
     bool good =
         pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
+        read_region(render, &node) &&
         pel_node_get_name(&node, "mixing", pel_mixing_names(), &mixing) &&
         pel_scene_read_march(render, &node) &&
         pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
@@ -184,6 +213,7 @@ static void write_render(struct pel_scene_writer *writer, json_t *scene) {
     const struct pel_render_settings *usual = &writer->usual->render;
     json_t *object = pel_write_object(writer, scene, "render");
     pel_write_numbers(writer, object, "size", 2, (double[]){render->width, render->height});
+    write_region(writer, object);
     pel_write_name(writer, object, "mixing", pel_mixing_names(), render->mixing, usual->mixing);
     pel_scene_write_march(writer, object);
     pel_write_number(writer, object, "phase", render->phase, usual->phase);

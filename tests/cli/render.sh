@@ -143,7 +143,7 @@ expect 2 "^pellucid: --mask: '0:1' is not like 0=labels:7,8, ct!=labels:1,3..5 o
 expect 2 "volumes.0.mask.*'box.nii.gz' is this volume" render data/box.nii.gz --mask 0=0:1
 
 # A debug view is a picture of numbers, and one ray tells what it meets.
-expect 0 '' render data/box.nii.gz "${small[@]}" --debug samples -o samples.png --json
+expect 0 '' render data/box.nii.gz "${small[@]}" --set camera.fit=all --debug samples -o samples.png --json
 check_json 'x["debug"]["min"] == 0 and abs(x["debug"]["mean"] * 32 * 24 - x["samples"]) < 1'
 expect 2 'render\.debug="samlpes": must be none, samples, ' render data/box.nii.gz --debug samlpes
 expect 0 '^spans    1$' render data/box.nii.gz "${small[@]}" --pixel 16,12
