@@ -114,6 +114,12 @@ png said.png '(width, height) == (20, 10)'
 expect 0 '' render scene.json -o other.tif
 [ -s other.tif ] || complain "no other.tif"
 
+# A link stays, and the file it leads to is replaced.
+mkdir links && echo old >links/target.png && ln -s target.png links/name.png
+expect 0 '' render data/box.nii.gz "${small[@]}" -o links/name.png
+[ -L links/name.png ] || complain "the link was replaced"
+png links/target.png 'width == 32'
+
 # PPM on standard output: a header and three bytes a pixel.
 expect 0 '^P6$' render data/box.nii.gz "${small[@]}" -o -
 python3 -c '
