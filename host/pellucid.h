@@ -872,6 +872,7 @@ struct pel_renderer_options {
     int work_group;                // work-items per work-group; 0 = as the device likes it
     int work_group_rows;           // packets of rays above each other in one; 0 = 1
     uint64_t max_allocation_bytes; // lowers the device's own limit (for tests); 0 = the device's
+    int compute_units;             // of a device that can be divided; 0 = all
 };
 
 struct pel_image {

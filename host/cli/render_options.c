@@ -46,6 +46,7 @@ enum {
     KEY_READER,
     KEY_LANES,
     KEY_WORK_GROUP,
+    KEY_COMPUTE_UNITS,
     KEY_DEVICE,
     KEY_DEPTH,
     KEY_ALPHA,
@@ -154,6 +155,8 @@ static const struct argp_option argp_options[] = {
     {"reader", KEY_READER, "auto|buffer|image", 0, "How kernels read voxels", 0},
     {"lanes", KEY_LANES, "1|4|8|16", 0, "Rays per work-item", 0},
     {"work-group", KEY_WORK_GROUP, "N", 0, "Work-items per work-group", 0},
+    {"compute-units", KEY_COMPUTE_UNITS, "N", 0, "Of a device that can be divided, only so many",
+     0},
     {0, 0, NULL, 0, "Everything else:", 6},
     {"set", KEY_SET, "KEY=VALUE", 0,
      "Set any key of the scene, such as volumes.0.density=0.2; may be repeated", 0},
@@ -436,6 +439,9 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_WORK_GROUP:
         good = cli_integer("--work-group", argument, 1, &options->renderer.work_group);
+        break;
+    case KEY_COMPUTE_UNITS:
+        good = cli_integer("--compute-units", argument, 1, &options->renderer.compute_units);
         break;
     case ARGP_KEY_ARGS:
         options->inputs = state->argv + state->next;
