@@ -740,6 +740,17 @@ struct pel_keyframe {
 PEL_API bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
                                      int count, double fps);
 
+// Reads back the viewpoints of the way of the scene's camera, as pel_scene_set_keyframes or a file
+// put them there: `most` of them at most. Returns how many there are; 0 when the camera moves by
+// other tracks (orbits, named views, single members), or not at all.
+PEL_API int pel_scene_keyframes(const struct pel_scene *scene, struct pel_keyframe *keyframes,
+                                int most);
+
+// What was changed in the scene since it was loaded becomes what its animation acts upon, so that
+// pel_scene_set_frame does not lose it. Fails like pel_scene_set_keyframes, with the scene as it
+// was.
+PEL_API bool pel_scene_rebase(struct pel_scene *scene);
+
 // An empty scene with every default, to be filled by a program. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_create(void);
 

@@ -124,6 +124,7 @@ static void begin_drag(struct pel_state *state, const struct pel_event *event) {
         return;
     bool shift = event->modifiers & PEL_SHIFT;
     pel_state_begin_gesture(state);
+    pel_film_leave(state, true);
     state->drag_view = view;
     place_in_view(state, view, event, state->drag_px);
     for (int i = 0; i < 2; i++)
@@ -226,6 +227,7 @@ static void wheel(struct pel_state *state, const struct pel_event *event) {
         state->slices_old = state->redraw = true;
         return;
     }
+    pel_film_leave(state, true);
     pel_navigation_wheel(&state->navigation, size, at_px, event->wheel);
     pel_state_move_camera(state);
 }
@@ -279,6 +281,7 @@ static void press(struct pel_state *state, const struct pel_event *event) {
         return;
     if (!state->held)
         pel_state_begin_gesture(state);
+    pel_film_leave(state, true);
     pel_navigation_begin(&state->navigation);
     state->held |= 1u << action;
     move(state, 1u << action, touch_s);
@@ -297,7 +300,7 @@ static void release(struct pel_state *state, const struct pel_event *event) {
 // ---- Both --------------------------------------------------------------------------------------
 
 bool pel_hand_is_busy(const struct pel_state *state) {
-    return state->held || state->navigation.duration_s > 0;
+    return state->held || state->navigation.duration_s > 0 || state->film.playing;
 }
 
 void pel_hand_tick(struct pel_state *state, double seconds) {
@@ -305,6 +308,7 @@ void pel_hand_tick(struct pel_state *state, double seconds) {
         move(state, state->held, fmin(seconds, 0.1));
     if (pel_navigation_tick(&state->navigation, seconds))
         pel_state_move_camera(state);
+    pel_film_tick(state, seconds);
 }
 
 void pel_hand_react(struct pel_state *state, const struct pel_event *event) {

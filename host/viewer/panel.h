@@ -14,6 +14,7 @@ void pel_panel_pose(struct pel_state *state);
 void pel_panel_look(struct pel_state *state);
 void pel_panel_light(struct pel_state *state);
 void pel_panel_stereo(struct pel_state *state);
+void pel_panel_film(struct pel_state *state);
 void pel_panel_quality(struct pel_state *state);
 void pel_panel_statistics(struct pel_state *state);
 void pel_panel_file(struct pel_state *state);

@@ -79,6 +79,7 @@ static void draw_column(struct pel_state *state) {
         {"Look", false, pel_panel_look},
         {"Lights and shading", false, pel_panel_light},
         {"Stereo", false, pel_panel_stereo},
+        {"Animation", false, pel_panel_film},
         {"Quality", false, pel_panel_quality},
         {"Statistics", false, pel_panel_statistics},
         {"File", false, pel_panel_file},

@@ -4,6 +4,7 @@
 #define PEL_VIEWER_STATE_H
 
 #include "viewer/compare.h"
+#include "viewer/film.h"
 #include "viewer/handles.h"
 #include "viewer/history.h"
 #include "viewer/navigation.h"
@@ -76,6 +77,8 @@ struct pel_state {
     struct pel_pane_window windows[PEL_WALL_MAX];
     int window_count;
     struct pel_worker *worker;
+
+    struct pel_film film; // the scene's animation
 
     // Comparing.
     struct pel_compare compare;
