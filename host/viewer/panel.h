@@ -13,6 +13,7 @@ void pel_panel_clip(struct pel_state *state);
 void pel_panel_pose(struct pel_state *state);
 void pel_panel_look(struct pel_state *state);
 void pel_panel_light(struct pel_state *state);
+void pel_panel_surface(struct pel_state *state);
 void pel_panel_stereo(struct pel_state *state);
 void pel_panel_film(struct pel_state *state);
 void pel_panel_quality(struct pel_state *state);

@@ -78,6 +78,7 @@ static void draw_column(struct pel_state *state) {
         {"Clipping", false, pel_panel_clip},
         {"Look", false, pel_panel_look},
         {"Lights and shading", false, pel_panel_light},
+        {"Gradients and surfaces", false, pel_panel_surface},
         {"Stereo", false, pel_panel_stereo},
         {"Animation", false, pel_panel_film},
         {"Quality", false, pel_panel_quality},

@@ -56,6 +56,14 @@ bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
                           false);
 }
 
+bool pel_state_clip_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
+    struct pel_view view;
+    return state->clip > 0 && state->clip <= state->scene->clip_count &&
+           pel_state_view(state, 0, &view) &&
+           pel_clip_gizmo(gizmo, &state->scene->clips[state->clip - 1], &view,
+                          70 * state->windows[0].scale);
+}
+
 double pel_state_aspect(const struct pel_state *state) {
     const int *whole = state->views[0].whole;
     return whole[1] > 0 ? (double)whole[0] / whole[1] : 1;
