@@ -135,7 +135,7 @@ static const struct argp_option argp_options[] = {
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
     {"termination", KEY_TERMINATION, "X", 0, "End a ray once its opacity exceeds this; 1 for never",
      0},
-    {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh", 0,
+    {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh|blocks", 0,
      "How empty space is skipped; the picture is the same with each", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,

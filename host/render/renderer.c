@@ -262,7 +262,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     if (statistics->skip != PEL_SKIP_NONE || world->pool) {
         statistics->skip_bytes = pel_occupancy_bytes(&renderer->occupancy) +
                                  pel_buffer_bytes(renderer->residency.ranges);
-        statistics->bricks = renderer->occupancy.hierarchy.statistics;
+        statistics->bricks = pel_occupancy_bricks(&renderer->occupancy);
     }
     statistics->work_group = (int)extent->group;
     statistics->kernel = pel_kernel_describe(kernel);
@@ -436,7 +436,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
         .residency = &renderer->residency,
         .world_buffer = renderer->world.buffer,
         .tables = renderer->tables.buffer,
-        .cells = renderer->occupancy.cells,
+        .cells = pel_occupancy_map(&renderer->occupancy),
         .scene = &seen,
         .world = &world,
     };

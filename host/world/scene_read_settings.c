@@ -18,14 +18,16 @@ static const char *const render_keys[] = {
     "phase",          "termination",    "origin",  "skip",   "bricks",
     "supersampling",  "jitter",         "debug",   "model",  "order",
     "emission_scale", "preintegration", "quality", "region", NULL};
-static const char *const brick_keys[] = {"comment", "size", "cluster", "pool", NULL};
+static const char *const brick_keys[] = {"comment", "size", "cluster", "walk",
+                                         "cull",    "pool", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
 
 // In the order of their enums.
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
-static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", "bvh", NULL};
+static const char *const skip_names[] = {"auto",   "none", "grid",   "distance",
+                                         "octree", "bvh",  "blocks", NULL};
 static const char *const pool_names[] = {"auto", "off", "on", NULL};
 static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
                                           "work-group", "work-item", "time",  NULL};
@@ -150,15 +152,18 @@ static bool read_bricks(struct pel_brick_settings *bricks, const struct pel_scen
     struct pel_scene_node node, size;
     if (!pel_node_member(&node, render, "bricks"))
         return true;
-    bool cluster = !bricks->apart;
+    bool cluster = !bricks->apart, walk = !bricks->stay, cull = !bricks->keep;
     int pool = (int)bricks->pool;
     if (!pel_node_check_object(&node, brick_keys) ||
         !pel_node_get_integer(&node, "size", 8, 128, &bricks->size) ||
         !pel_node_get_bool(&node, "cluster", &cluster) ||
+        !pel_node_get_bool(&node, "walk", &walk) || !pel_node_get_bool(&node, "cull", &cull) ||
         !pel_node_get_name(&node, "pool", pool_names, &pool))
         return false;
     bricks->pool = (enum pel_pool_use)pool;
     bricks->apart = !cluster;
+    bricks->stay = !walk;
+    bricks->keep = !cull;
     if (pel_bricks_check(bricks))
         return true;
     pel_node_member(&size, &node, "size");
@@ -170,6 +175,8 @@ static void write_bricks(struct pel_scene_writer *writer, json_t *render) {
     json_t *object = pel_write_object(writer, render, "bricks");
     pel_write_number(writer, object, "size", bricks->size, 0);
     pel_write_bool(writer, object, "cluster", !bricks->apart, true);
+    pel_write_bool(writer, object, "walk", !bricks->stay, true);
+    pel_write_bool(writer, object, "cull", !bricks->keep, true);
     pel_write_name(writer, object, "pool", pool_names, (int)bricks->pool, PEL_POOL_AUTO);
     if (json_object_size(object) == 0)
         json_object_del(render, "bricks");
