@@ -44,29 +44,43 @@ static void draw_rays(struct pel_state *state) {
     pel_panel_slide(state, "adaptive beyond", &rays->adaptive, 0, 0.5, "%.3f");
 }
 
-static void draw_skipping(struct pel_state *state) {
+static void draw_brick(struct pel_state *state, const char *label, bool *value) {
+    if (pel_widget_check(label, value))
+        pel_panel_changed(state, "bricks");
+}
+
+static void draw_bricks(struct pel_state *state) {
     struct pel_render_settings *render = &state->scene->render;
     struct pel_brick_settings *bricks = &render->bricks;
-    int skip = (int)render->skip, pool = (int)bricks->pool;
+    bool blocks = render->skip == PEL_SKIP_BLOCKS;
+    int voxels = bricks->size ? bricks->size : blocks ? 8 : 16, size = 0;
+    while (size < 4 && voxels != 8 << size)
+        size++;
+    if (pel_widget_choose("bricks", pel_names_brick(), &size)) {
+        bricks->size = 8 << size;
+        pel_panel_changed(state, "bricks");
+    }
+    if (blocks) {
+        draw_brick(state, "search for every next one", &bricks->stay);
+        draw_brick(state, "cull none", &bricks->keep);
+    } else {
+        draw_brick(state, "each brick by itself", &bricks->apart);
+    }
+}
+
+static void draw_skipping(struct pel_state *state) {
+    struct pel_render_settings *render = &state->scene->render;
+    int skip = (int)render->skip, pool = (int)render->bricks.pool;
     if (pel_widget_choose("skip", pel_names_skip(), &skip)) {
         render->skip = (enum pel_skip)skip;
         pel_panel_changed(state, "skip");
     }
     if (pel_widget_choose("brick pool", pel_names_pool(), &pool)) {
-        bricks->pool = (enum pel_pool_use)pool;
+        render->bricks.pool = (enum pel_pool_use)pool;
         pel_panel_changed(state, "brick pool");
     }
-    if (render->skip == PEL_SKIP_BVH) {
-        int size = 0;
-        while (size < 4 && (bricks->size ? bricks->size : 16) != 8 << size)
-            size++;
-        if (pel_widget_choose("bricks", pel_names_brick(), &size)) {
-            bricks->size = 8 << size;
-            pel_panel_changed(state, "bricks");
-        }
-        if (pel_widget_check("each brick by itself", &bricks->apart))
-            pel_panel_changed(state, "bricks");
-    }
+    if (render->skip == PEL_SKIP_BVH || render->skip == PEL_SKIP_BLOCKS)
+        draw_bricks(state);
 }
 
 void pel_panel_quality(struct pel_state *state) {
