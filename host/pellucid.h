@@ -559,6 +559,7 @@ enum pel_skip {
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
     PEL_SKIP_OCTREE,   // empty nodes of an octree over the same cells are left one by one
     PEL_SKIP_BVH,      // from cluster to cluster of bricks, by a bounding volume hierarchy
+    PEL_SKIP_BLOCKS,   // from block to block beside it, and by the sub-blocks in them
 };
 
 // Whether only those bricks of 16^3 voxels are on the device in which something can be seen. They
@@ -569,10 +570,14 @@ enum pel_pool_use {
     PEL_POOL_ON,
 };
 
-// The cubes of voxels in which PEL_SKIP_BVH looks for what is visible (Ganter & Manzke 2019).
+// The cubes of voxels in which PEL_SKIP_BVH (Ganter & Manzke 2019) and PEL_SKIP_BLOCKS (Derin et
+// al. 2021; its sub-blocks) look for what is visible.
 struct pel_brick_settings {
-    int size;   // voxels along a side: 8, 16, 32, 64 or 128; 0 = 16; with a pool at least 16
-    bool apart; // each active brick is a cluster of its own
+    int size;   // voxels along a side: 8, 16, 32, 64 or 128; 0 = 16, or 8 for blocks; with a pool
+                // at least 16
+    bool apart; // of bvh: each active brick is a cluster of its own
+    bool stay;  // of blocks: every next one is searched for, instead of walking to the one beside
+    bool keep;  // of blocks: none are culled by what the transfer function shows
     enum pel_pool_use pool;
 };
 
@@ -640,6 +645,8 @@ struct pel_ambient_occlusion {
 
 struct pel_render_settings {
     int width, height;      // pixels
+    int region[4];          // the part of it that is rendered: left and top edge, width and height
+                            // in pixels; all zero: all of it
     enum pel_mixing mixing; //
     double step;            // in voxels of the finest visible volume; > 0
     double step_mm;         // the same in millimetres, instead of `step`; 0 = as `step` says
@@ -832,7 +839,7 @@ PEL_API bool pel_stereo_cameras(const struct pel_scene *scene, struct pel_camera
 // visible.
 struct pel_brick_statistics {
     int size;                                // voxels along a side; 0: there are none
-    uint64_t total, active, clusters;        //
+    uint64_t total, active, clusters;        // of blocks: sub-blocks, those stored, blocks
     uint64_t resident;                       // of the pool, on the device; 0 without one
     double activity_ms, cluster_ms, tree_ms; // finding the active bricks, clusters, hierarchy
 };

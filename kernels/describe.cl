@@ -105,6 +105,10 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, height);
     *out++ = OFFSET(struct world, tiles_x);
     *out++ = OFFSET(struct world, part_count);
+    *out++ = OFFSET(struct world, whole_width);
+    *out++ = OFFSET(struct world, whole_height);
+    *out++ = OFFSET(struct world, left);
+    *out++ = OFFSET(struct world, top);
     *out++ = OFFSET(struct world, rays_n);
     *out++ = OFFSET(struct world, pattern);
     *out++ = OFFSET(struct world, reconstruction);

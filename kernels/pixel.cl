@@ -24,7 +24,7 @@ struct light {
 
 // The rays of the packet whose first pixel is (left, top).
 INLINE struct ray pixel_rays(__constant struct world *world, int left, int top RAY_PARAMETERS) {
-    const real x = TO_REAL(left + LANE_X), y = TO_REAL(top + LANE_Y);
+    const real x = TO_REAL(world->left + left + LANE_X), y = TO_REAL(world->top + top + LANE_Y);
 #if SUPERSAMPLING || JITTER
     float xs[LANES], ys[LANES], phases[LANES], runs[LANES];
 #if SUPERSAMPLING
@@ -32,7 +32,7 @@ INLINE struct ray pixel_rays(__constant struct world *world, int left, int top R
 #endif
     for (int lane = 0; lane < LANES; lane++) {
         const int x_px = left + lane % PACKET_W, y_px = top + lane / PACKET_W;
-        const uint key = pattern_key(world->seed, x_px, y_px);
+        const uint key = pattern_key(world->seed, world->left + x_px, world->top + y_px);
 #if SUPERSAMPLING
         const uint s = number == RAY_CENTRE ? 0 : number;
 #else

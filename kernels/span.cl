@@ -1,12 +1,13 @@
 // span.cl - which parts a packet of rays crosses, and which of them are active at a sample.
 //
-// A ray is cut into spans with a constant set of active parts, so the cost of a sample follows the
-// parts that are there and not those that are loaded.
+// A ray is cut into spans with a constant set of active parts, so the cost of a sample follows the parts
+// that are there and not those that are loaded.
 #ifndef SPAN_CL
 #define SPAN_CL
 
 #include "shared/probe.h"
 #include "clip.cl"
+#include "traverse/hierarchy.cl"
 #include "traverse/leap.cl"
 #include "shared/grid.h"
 
@@ -26,6 +27,8 @@
 #include "traverse/octree.cl"
 #elif SKIP == SKIP_BVH
 #include "traverse/bvh.cl"
+#elif SKIP == SKIP_BLOCKS
+#include "traverse/blocks.cl"
 #else
 #include "traverse/grid.cl"
 #endif
@@ -48,8 +51,8 @@
 #define MODELS 0 // what else than absorption, gathered front to back, occurs: MODELS_*
 #endif
 
-// With room for one part only, the compiler must see that there is only one, or it keeps the cursor
-// in memory instead of registers.
+// With room for one part only, the compiler must see that there is only one, or it keeps the cursor in
+// memory instead of registers.
 #define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
 #define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
 
@@ -74,8 +77,7 @@ struct crossing {
     integer mirror; // what the numbers of a sample front to back and back to front add up to
 #endif
 #if MIXING == MIXING_ORDERED
-    // Where samples 0 of each lie and how far apart they are, in steps of the world from its sample
-    // 0.
+    // Where samples 0 of each lie and how far apart they are, in steps of the world from its sample 0.
     real starts[CAPACITY];
     float strides[CAPACITY];
 #endif
@@ -183,8 +185,8 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
 #if MODELS & MODELS_BACKWARD
         cursor_mirror(&cursor, crossing->mirror);
 #endif
-        crossing->possible +=
-            CHOOSE((integer)(0), cursor.end - cursor.first, MASK(cursor.first < cursor.end));
+        crossing->possible += CHOOSE((integer)(0), cursor.end - cursor.first,
+                                     MASK(cursor.first < cursor.end));
         if (any_lane(MASK(cursor.first < cursor.end)))
             cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
         if (any_lane(MASK(cursor.next < cursor.end))) {
@@ -202,8 +204,8 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     }
 }
 
-// The parts that are active in the present span of each lane, as indices into the crossing. It
-// lasts until some lane reaches the sample `until`, where its set may change.
+// The parts that are active in the present span of each lane, as indices into the crossing. It lasts until some
+// lane reaches the sample `until`, where its set may change.
 struct active {
     int list[CAPACITY];
     int count;

@@ -53,6 +53,7 @@ enum {
     KEY_ALPHA,
     KEY_SET,
     KEY_PIXEL,
+    KEY_REGION,
     KEY_JSON,
     KEY_FRAMES,
     KEY_FRAME,
@@ -66,6 +67,8 @@ static const struct argp_option argp_options[] = {
      "(default: the scene's own, else the first input's name with .png)",
      0},
     {"size", KEY_SIZE, "WxH", 0, "Pixels, such as 640x480", 0},
+    {"region", KEY_REGION, "X,Y,W,H", 0,
+     "Render this part of the picture alone: left and top edge, width and height in pixels", 0},
     {"depth", KEY_DEPTH, "8|16", 0, "Bits of a PNG's channels", 0},
     {"alpha", KEY_ALPHA, "straight|premultiplied", 0, "How a PNG's colours are written", 0},
     {"background", KEY_BACKGROUND, "COLOUR", 0,
@@ -142,7 +145,7 @@ static const struct argp_option argp_options[] = {
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
     {"termination", KEY_TERMINATION, "X", 0, "End a ray once its opacity exceeds this; 1 for never",
      0},
-    {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh", 0,
+    {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh|blocks", 0,
      "How empty space is skipped; the picture is the same with each", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,
@@ -204,6 +207,20 @@ static bool add_integer(struct render_options *options, const char *option, cons
     if (!cli_integer(option, text, 0, &value))
         return false;
     overrides_add(&options->overrides, key, text);
+    return true;
+}
+
+static bool add_region(struct render_options *options, const char *text) {
+    int region[4], end = 0;
+    if (sscanf(text, "%9d,%9d,%9d,%9d%n", &region[0], &region[1], &region[2], &region[3], &end) !=
+            4 ||
+        text[end] != '\0') {
+        cli_fail(PEL_ERROR_ARGUMENT, "--region: '%s' is not of the form X,Y,W,H", text);
+        return false;
+    }
+    char list[64];
+    snprintf(list, sizeof list, "[%s]", text);
+    overrides_add(&options->overrides, "render.region", list);
     return true;
 }
 
@@ -291,6 +308,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     switch (key) {
     case KEY_SIZE:
         good = add_size(options, argument);
+        break;
+    case KEY_REGION:
+        good = add_region(options, argument);
         break;
     case KEY_CAMERA:
         good = add_camera(options, argument);

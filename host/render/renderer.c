@@ -16,6 +16,7 @@
 #include "render/mirror.h"
 #include "render/occupancy.h"
 #include "render/probe.h"
+#include "render/region.h"
 #include "render/residency.h"
 #include "render/resolve.h"
 #include "render/target.h"
@@ -81,22 +82,6 @@ static struct extent picture_extent(const struct pel_render_settings *settings, 
 
 static size_t round_up(size_t value, size_t multiple) {
     return (value + multiple - 1) / multiple * multiple;
-}
-
-// Refuses a frame whose voxels and picture together do not fit, before anything is allocated.
-static bool check_memory(const struct pel_layout *layout, const struct pel_layout_limits *limits,
-                         uint64_t frame_bytes) {
-    uint64_t needed = frame_bytes;
-    for (int b = 0; b < VOXEL_BUFFERS; b++)
-        needed += layout->buffer_bytes[b];
-    for (int class = 0; class < VOXEL_CLASS_COUNT; class ++)
-        needed += (uint64_t)layout->atlas[class][0] * layout->atlas[class][1] *
-                  layout->atlas[class][2] * pel_voxel_class_bytes(class);
-    if (needed > limits->memory_bytes)
-        return pel_fail(PEL_ERROR_DEVICE,
-                        "volumes and picture need %llu bytes, the device has %llu",
-                        (unsigned long long)needed, (unsigned long long)limits->memory_bytes);
-    return true;
 }
 
 // Where the kernel finds what changes from launch to launch.
@@ -277,7 +262,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     if (statistics->skip != PEL_SKIP_NONE || world->pool) {
         statistics->skip_bytes = pel_occupancy_bytes(&renderer->occupancy) +
                                  pel_buffer_bytes(renderer->residency.ranges);
-        statistics->bricks = renderer->occupancy.hierarchy.statistics;
+        statistics->bricks = pel_occupancy_bricks(&renderer->occupancy);
     }
     statistics->work_group = (int)extent->group;
     statistics->kernel = pel_kernel_describe(kernel);
@@ -364,12 +349,12 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
         return false;
     struct pel_layout_limits limits =
         pel_residency_limits(renderer->device, renderer->options.max_allocation_bytes);
-    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     if (!pel_layout_plan(layout, scene, &limits, renderer->options.reader, info->reader) ||
         !pel_world_build(world, scene, layout))
         return false;
+    size_t pixels = (size_t)world->bytes.width * (size_t)world->bytes.height;
     size_t pixel_bytes = sizeof(float4) + (world->supersampling ? PEL_RESOLVE_BYTES : 0);
-    if (!check_memory(layout, &limits, pixels * pixel_bytes)) {
+    if (!pel_residency_check(layout, &limits, pixels * pixel_bytes)) {
         pel_world_finish(world);
         return false;
     }
@@ -392,9 +377,15 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_layout layout;
     struct pel_world world;
     struct pel_scene shown;
-    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown) ||
-        !plan(renderer, &shown, &layout, &world, statistics))
+    if (!pel_region_check(&scene->render) ||
+        !pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown))
         return NULL;
+    pel_region_widen(&shown.render);
+    if (!plan(renderer, &shown, &layout, &world, statistics))
+        return NULL;
+    // What follows knows only the part of the picture that is made.
+    shown.render.width = world.bytes.width;
+    shown.render.height = world.bytes.height;
     struct pel_image *image = NULL;
     if (world.bytes.part_count == 0) {
         image = render_background(&world);
@@ -411,7 +402,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     memcpy(statistics->driver, info->driver, sizeof statistics->driver);
     statistics->device_bytes = pel_device_allocated_bytes(renderer->device);
     statistics->uploaded_bytes = pel_device_uploaded_bytes(renderer->device) - uploaded_before;
-    return image;
+    return pel_region_cut(image, &shown.render, &scene->render);
 }
 
 bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *scene, int x, int y,
@@ -423,6 +414,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
     struct pel_scene seen;
     if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen))
         return false;
+    memset(seen.render.region, 0, sizeof seen.render.region);
     seen.render.debug = PEL_DEBUG_NONE;
     seen.render.supersampling.n = 0;
     seen.render.supersampling.pattern = PEL_PATTERN_REGULAR;
@@ -444,7 +436,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
         .residency = &renderer->residency,
         .world_buffer = renderer->world.buffer,
         .tables = renderer->tables.buffer,
-        .cells = renderer->occupancy.cells,
+        .cells = pel_occupancy_map(&renderer->occupancy),
         .scene = &seen,
         .world = &world,
     };

@@ -73,6 +73,21 @@ bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_sc
     return true;
 }
 
+// Rows and columns are counted in the whole picture.
+static bool begins_with_the_other_eye(const struct pel_scene *scene) {
+    const int *region = scene->render.region;
+    switch (scene->stereo.kind) {
+    case PEL_STEREO_ROW_INTERLACED:
+        return region[1] % 2 != 0;
+    case PEL_STEREO_COLUMN_INTERLACED:
+        return region[0] % 2 != 0;
+    case PEL_STEREO_CHECKERBOARD:
+        return (region[0] + region[1]) % 2 != 0;
+    default:
+        return false;
+    }
+}
+
 struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struct pel_scene *scene,
                                       const struct pel_render_options *options,
                                       struct pel_render_statistics *statistics) {
@@ -85,7 +100,8 @@ struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struc
     if (!pel_renderer_render_eyes(renderer, scene, options, statistics, eyes))
         return NULL;
     double begin_ms = pel_clock_ms();
-    struct pel_image *image = pel_stereo_compose(&scene->stereo, eyes[0], eyes[1]);
+    bool odd = begins_with_the_other_eye(scene);
+    struct pel_image *image = pel_stereo_compose(&scene->stereo, eyes[odd], eyes[!odd]);
     statistics->stereo.compose_ms = pel_clock_ms() - begin_ms;
     pel_image_destroy(eyes[0]);
     pel_image_destroy(eyes[1]);

@@ -15,6 +15,8 @@ static int skip_knob(enum pel_skip skip) {
         return SKIP_OCTREE;
     case PEL_SKIP_BVH:
         return SKIP_BVH;
+    case PEL_SKIP_BLOCKS:
+        return SKIP_BLOCKS;
     case PEL_SKIP_AUTO:
     case PEL_SKIP_DISTANCE:
         break;

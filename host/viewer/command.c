@@ -113,7 +113,7 @@ static void save_scene(struct pel_state *state) {
     bool good = scene != NULL;
     if (good) {
         // The picture of the file is that of the window.
-        pel_screen_fit_scene(state, 0, scene);
+        pel_screen_fit_whole(state, scene);
         good = pel_scene_save(scene, state->scene_path);
     }
     if (good)
@@ -140,7 +140,7 @@ static void save_picture(struct pel_state *state) {
         pel_state_say(state, "%s", pel_error_message());
         return;
     }
-    pel_screen_fit_scene(state, 0, scene);
+    pel_screen_fit_whole(state, scene);
     if (state->save_size[0] > 0 && state->save_size[1] > 0) {
         scene->render.width = state->save_size[0];
         scene->render.height = state->save_size[1];
@@ -173,8 +173,7 @@ static bool use_window(struct pel_state *state, enum pel_action action) {
         state->readouts = !state->readouts;
         return true;
     case PEL_ACTION_FULL_SCREEN:
-        for (int i = 0; i < state->window_count; i++)
-            pel_window_toggle_full_screen(state->windows[i].window);
+        pel_screen_toggle_full_screen(state);
         return true;
     case PEL_ACTION_ESCAPE:
         state->help = false;

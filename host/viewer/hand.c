@@ -27,10 +27,12 @@ static int find_view(const struct pel_state *state, int window, double x, double
     return -1;
 }
 
+// In pixels of the picture that the view is, or is a part of.
 static void place_in_view(const struct pel_state *state, int view, const struct pel_event *event,
                           double px[2]) {
-    px[0] = event->x - state->views[view].place.x;
-    px[1] = event->y - state->views[view].place.y;
+    const struct pel_screen_view *shown = &state->views[view];
+    px[0] = event->x - shown->place.x + shown->offset[0];
+    px[1] = event->y - shown->place.y + shown->offset[1];
 }
 
 // ---- The mouse ---------------------------------------------------------------------------------
@@ -38,7 +40,7 @@ static void place_in_view(const struct pel_state *state, int view, const struct 
 // The selected volume's handle under the pointer, if there is one.
 static bool take_handle(struct pel_state *state) {
     struct pel_gizmo gizmo;
-    if (state->drag_view != 0 || !pel_state_gizmo(state, &gizmo))
+    if (state->drag_view >= state->picture_count || !pel_state_gizmo(state, &gizmo))
         return false;
     enum pel_handle handle =
         pel_gizmo_hit(&gizmo, state->drag_px, reach_px * state->windows[0].scale);
@@ -89,16 +91,14 @@ static void move_cross(struct pel_state *state, const double at_px[2]) {
 
 static bool is_on_split(const struct pel_state *state) {
     const struct pel_compare *compare = &state->compare;
-    const struct pel_rectangle *place = &state->views[0].place;
-    double line_px = compare->split * (compare->across ? place->height : place->width);
+    double line_px = compare->split * state->views[0].whole[compare->across];
     double at_px = state->drag_px[compare->across];
     return compare->mode == PEL_COMPARE_SPLIT &&
            fabs(line_px - at_px) < reach_px * state->windows[0].scale;
 }
 
 static void move_split(struct pel_state *state, const double at_px[2]) {
-    const struct pel_rectangle *place = &state->views[0].place;
-    double size_px = state->compare.across ? place->height : place->width;
+    double size_px = state->views[0].whole[state->compare.across];
     state->compare.split = fmin(fmax(at_px[state->compare.across] / size_px, 0), 1);
     state->compare_old = true;
 }
@@ -156,13 +156,13 @@ static void drag_handle(struct pel_state *state, const double to_px[2], int modi
 
 // To the right the window gets wider, upwards the level lower, so that more is seen.
 static void drag_levels(struct pel_state *state, const double to_px[2]) {
-    const struct pel_rectangle *place = &state->views[state->drag_view].place;
+    const int *whole = state->views[state->drag_view].whole;
     struct pel_instance *instance = &state->scene->instances[state->selected];
     struct pel_transfer *transfer = pel_transfer_copy(state->levels_before);
     if (!transfer)
         return;
-    double right = (to_px[0] - state->drag_from_px[0]) / place->width;
-    double down = (to_px[1] - state->drag_from_px[1]) / place->height;
+    double right = (to_px[0] - state->drag_from_px[0]) / whole[0];
+    double down = (to_px[1] - state->drag_from_px[1]) / whole[1];
     const struct pel_statistics *statistics = &state->scene->statistics[instance->volume];
     double low, high;
     pel_transfer_window(transfer, &low, &high);
@@ -175,8 +175,7 @@ static void drag_levels(struct pel_state *state, const double to_px[2]) {
 
 static void drag(struct pel_state *state, const struct pel_event *event) {
     double to_px[2];
-    const struct pel_rectangle *place = &state->views[state->drag_view].place;
-    const int size[2] = {place->width, place->height};
+    const int *size = state->views[state->drag_view].whole;
     place_in_view(state, state->drag_view, event, to_px);
     switch (state->drag) {
     case PEL_DRAG_TURN:
@@ -216,8 +215,7 @@ static void wheel(struct pel_state *state, const struct pel_event *event) {
     if (view < 0)
         return;
     double at_px[2];
-    const struct pel_rectangle *place = &state->views[view].place;
-    const int size[2] = {place->width, place->height};
+    const int *size = state->views[view].whole;
     place_in_view(state, view, event, at_px);
     struct pel_slice slice;
     if (pel_show_slice(state, view, &slice)) {

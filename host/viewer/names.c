@@ -25,8 +25,8 @@ const char *const *pel_names_light(void) {
 }
 
 const char *const *pel_names_skip(void) {
-    static const char *const names[] = {"automatic", "none", "grid", "distance",
-                                        "octree",    "bvh",  NULL};
+    static const char *const names[] = {"automatic", "none", "grid",   "distance",
+                                        "octree",    "bvh",  "blocks", NULL};
     return names;
 }
 

@@ -18,8 +18,8 @@ void pel_panel_quality(struct pel_state *state);
 void pel_panel_statistics(struct pel_state *state);
 void pel_panel_file(struct pel_state *state);
 
-// Over the pictures.
-void pel_panel_overlay(struct pel_state *state);
+// Over the pictures of one window.
+void pel_panel_overlay(struct pel_state *state, int window);
 
 // ---- For all of them ---------------------------------------------------------------------------
 

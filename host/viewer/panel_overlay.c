@@ -51,16 +51,24 @@ static void draw_scale(const struct pel_state *state, const struct pel_view *vie
     pel_widget_write(at, white, bar.text);
 }
 
+// Where the picture's own pixels begin in the window of a view: outside of it on most of a wall.
+static struct pel_rectangle picture_place(const struct pel_screen_view *view) {
+    return (struct pel_rectangle){view->place.x - view->offset[0], view->place.y - view->offset[1],
+                                  view->whole[0], view->whole[1]};
+}
+
 // The gizmo: arrows red, green and blue along x, y and z, rings about them.
-static void draw_handles(const struct pel_state *state, const struct pel_rectangle *where) {
+static void draw_handles(const struct pel_state *state, int window,
+                         const struct pel_rectangle *where) {
     static const uint32_t colours[] = {0xFF5050FF, 0xFF50E050, 0xFFFF8050, 0xFFE0E0E0};
     struct pel_gizmo gizmo;
     if (!pel_state_gizmo(state, &gizmo))
         return;
     const double at[2] = {state->pointer_px[0] - where->x, state->pointer_px[1] - where->y};
-    enum pel_handle hot = state->drag == PEL_DRAG_HANDLE
-                              ? state->handle_drag.handle
-                              : pel_gizmo_hit(&gizmo, at, 8 * state->windows[0].scale);
+    enum pel_handle hot = state->drag == PEL_DRAG_HANDLE ? state->handle_drag.handle
+                          : window == state->pointer_window
+                              ? pel_gizmo_hit(&gizmo, at, 8 * state->windows[0].scale)
+                              : PEL_HANDLE_NONE;
     for (int handle = PEL_HANDLE_NONE + 1; handle < PEL_HANDLE_COUNT; handle++) {
         double points[PEL_HANDLE_POINTS][2];
         int count = pel_gizmo_outline(&gizmo, (enum pel_handle)handle, points);
@@ -76,11 +84,13 @@ static void draw_handles(const struct pel_state *state, const struct pel_rectang
 
 // Where the pointer's ray first sees something, and what every volume is there.
 static void draw_values(struct pel_state *state, const struct pel_view *view,
-                        const struct pel_rectangle *where) {
-    const double at[2] = {state->pointer_px[0] - where->x, state->pointer_px[1] - where->y};
-    if (state->drag != PEL_DRAG_NONE || at[0] < 0 || at[1] < 0 || at[0] >= where->width ||
-        at[1] >= where->height)
+                        const struct pel_screen_view *shown) {
+    const struct pel_rectangle *where = &shown->place, picture = picture_place(shown);
+    double right = state->pointer_px[0] - where->x, down = state->pointer_px[1] - where->y;
+    if (state->drag != PEL_DRAG_NONE || right < 0 || down < 0 || right >= where->width ||
+        down >= where->height)
         return;
+    const double at[2] = {state->pointer_px[0] - picture.x, state->pointer_px[1] - picture.y};
     if (!state->picked)
         pel_pick(&state->pick, state->scene, view, at);
     state->picked = true;
@@ -120,7 +130,7 @@ static void draw_comparison(const struct pel_state *state, const struct pel_view
             pel_widget_line((double[]){x, where->y}, (double[]){x, where->y + where->height}, white,
                             1);
     }
-    for (int i = 1; i < state->view_count; i++) {
+    for (int i = state->picture_count; i < state->view_count; i++) {
         const struct pel_rectangle *place = &state->views[i].place;
         struct pel_slice slice;
         double at[2];
@@ -142,16 +152,21 @@ static void draw_comparison(const struct pel_state *state, const struct pel_view
     }
 }
 
-void pel_panel_overlay(struct pel_state *state) {
-    const struct pel_rectangle *where = &state->views[0].place;
+void pel_panel_overlay(struct pel_state *state, int window) {
+    // A window has one picture, the first of its views.
+    const struct pel_screen_view *shown = &state->views[window];
+    const struct pel_rectangle picture = picture_place(shown);
     struct pel_view view;
-    if (!pel_view_make(&view, &state->scene->camera, where->width, where->height))
+    if (!pel_state_view(state, window, &view))
         return;
     pel_widget_draw_over(true);
-    draw_cube(state, &view, where);
-    draw_scale(state, &view, where);
-    draw_handles(state, where);
-    draw_comparison(state, &view, where);
-    draw_values(state, &view, where);
+    if (window == state->window_count - 1) {
+        draw_cube(state, &view, &shown->place);
+        draw_scale(state, &view, &shown->place);
+    }
+    draw_handles(state, window, &picture);
+    draw_comparison(state, &view, &picture);
+    if (window == state->pointer_window)
+        draw_values(state, &view, shown);
     pel_widget_draw_over(false);
 }

@@ -42,8 +42,8 @@ void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene) {
 }
 
 bool pel_state_view(const struct pel_state *state, int number, struct pel_view *view) {
-    const struct pel_rectangle *place = &state->views[number].place;
-    return pel_view_make(view, &state->scene->camera, place->width, place->height);
+    const int *whole = state->views[number].whole;
+    return pel_view_make(view, &state->scene->camera, whole[0], whole[1]);
 }
 
 bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
@@ -54,8 +54,8 @@ bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
 }
 
 double pel_state_aspect(const struct pel_state *state) {
-    const struct pel_rectangle *place = &state->views[0].place;
-    return place->height > 0 ? (double)place->width / place->height : 1;
+    const int *whole = state->views[0].whole;
+    return whole[1] > 0 ? (double)whole[0] / whole[1] : 1;
 }
 
 void pel_state_say(struct pel_state *state, const char *format, ...) {

@@ -2,11 +2,16 @@
 // knows it. Events come from our own queue, so that scripts can work on panels as hands do.
 #include "viewer/widget.h"
 
+#include "pellucid.h"
+
 #include <imgui.h>
 
 #include <backends/imgui_impl_opengl3.h>
 
 namespace {
+
+// What Dear ImGui knows of each window.
+ImGuiContext *contexts[PEL_WALL_MAX];
 
 // Which widgets' drawings go where.
 bool drawing_over = false;
@@ -55,8 +60,9 @@ void map_keys(ImGuiIO &io) {
 
 } // namespace
 
-bool pel_widget_start(double scale) {
-    ImGui::CreateContext();
+bool pel_widget_start(int window, double scale) {
+    contexts[window] = ImGui::CreateContext();
+    ImGui::SetCurrentContext(contexts[window]);
     ImGuiIO &io = ImGui::GetIO();
     // Where windows were is not kept in a file.
     io.IniFilename = nullptr;
@@ -70,12 +76,17 @@ bool pel_widget_start(double scale) {
     return ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
-void pel_widget_stop(void) {
+void pel_widget_stop(int window) {
+    if (!contexts[window])
+        return;
+    ImGui::SetCurrentContext(contexts[window]);
     ImGui_ImplOpenGL3_Shutdown();
-    ImGui::DestroyContext();
+    ImGui::DestroyContext(contexts[window]);
+    contexts[window] = nullptr;
 }
 
 bool pel_widget_take_event(const struct pel_event *event) {
+    ImGui::SetCurrentContext(contexts[event->window]);
     ImGuiIO &io = ImGui::GetIO();
     switch (event->kind) {
     case PEL_EVENT_POINTER:
@@ -108,7 +119,8 @@ bool pel_widget_take_event(const struct pel_event *event) {
     }
 }
 
-void pel_widget_begin(const int window_px[2], double seconds) {
+void pel_widget_begin(int window, const int window_px[2], double seconds) {
+    ImGui::SetCurrentContext(contexts[window]);
     ImGuiIO &io = ImGui::GetIO();
     io.DisplaySize = ImVec2(static_cast<float>(window_px[0]), static_cast<float>(window_px[1]));
     io.DeltaTime = seconds > 1e-4 ? static_cast<float>(seconds) : 1e-4f;

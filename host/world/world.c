@@ -293,9 +293,14 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bool ends = settings->termination < 1 && !pel_model_never_ends(scene);
     bytes->termination = ends ? (float)settings->termination : 2;
     bytes->origin_bounds = settings->origin == PEL_ORIGIN_BOUNDS;
-    bytes->width = settings->width;
-    bytes->height = settings->height;
-    bytes->tiles_x = (settings->width + TILE_PX - 1) / TILE_PX;
+    bool part = settings->region[2] > 0;
+    bytes->left = settings->region[0];
+    bytes->top = settings->region[1];
+    bytes->width = part ? settings->region[2] : settings->width;
+    bytes->height = part ? settings->region[3] : settings->height;
+    bytes->whole_width = settings->width;
+    bytes->whole_height = settings->height;
+    bytes->tiles_x = (bytes->width + TILE_PX - 1) / TILE_PX;
     // The numbers of shared/pattern.h are in the order of the enums.
     const struct pel_supersampling *supersampling = &settings->supersampling;
     bytes->rays_n = supersampling->n > 1 ? supersampling->n : 1;

@@ -40,6 +40,7 @@
 #define SKIP_DISTANCE 2 // by the distance to the nearest cell with something in it
 #define SKIP_OCTREE 3   // by the nodes of an octree
 #define SKIP_BVH 4      // by a hierarchy over clusters of bricks
+#define SKIP_BLOCKS 5   // from block to block, and by the sub-blocks in them
 
 // Of a part: how light is gathered in it (docs/picture.md, "Optical models").
 #define MODEL_ABSORPTION 0

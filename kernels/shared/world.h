@@ -102,9 +102,11 @@ struct world {
     float phase;       // of the first sample, in steps
     float termination; // opacity beyond which a ray ends; above 1: never
     i32 origin_bounds; // 1: samples count from the bounds, 0: from the nearest part
-    i32 width, height; // of the picture in pixels
-    i32 tiles_x;       // tiles in a row of the picture
+    i32 width, height; // in pixels, of the picture or of the part of it that is rendered
+    i32 tiles_x;       // tiles in a row of that
     i32 part_count;
+    i32 whole_width, whole_height; // of the whole picture
+    i32 left, top;                 // where the part lies in it
     i32 rays_n;         // supersampling: rays_n x rays_n rays a pixel (shared/pattern.h)
     i32 pattern;        // one of PATTERN_*
     i32 reconstruction; // one of RECONSTRUCTION_*
@@ -122,7 +124,7 @@ struct world {
     float4 cuts[WORLD_ROW_MAX]; // only as many as there are reach the device
 };
 
-SHARED_ASSERT(sizeof(struct world) == 240 + 48 * LAMP_MAX + 448 * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
+SHARED_ASSERT(sizeof(struct world) == 256 + 48 * LAMP_MAX + 448 * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
               world_size);
 
 #endif

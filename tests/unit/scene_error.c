@@ -43,6 +43,8 @@ static const struct {
      "bad.json:1:22: render.size.0: must be at least 1 and at most 32768, not 0"},
     {"{'render': {'size': [1.5, 5]}, " TEST_VOLUMES "}",
      "bad.json:1:13: render.size: must be whole numbers, not 1.5 x 5"},
+    {"{'render': {'size': [9, 5], 'region': [5, 0, 5, 5]}, " TEST_VOLUMES "}",
+     "bad.json:1:29: render.region: 5, 0, 5, 5 is not inside the picture of 9 x 5"},
     {"{'render': {'mixing': 'most'}, " TEST_VOLUMES "}",
      "bad.json:1:13: render.mixing: must be sum, over, ordered, max, priority, union, "
      "intersection or difference, not \"most\""},
