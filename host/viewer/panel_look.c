@@ -120,6 +120,11 @@ void pel_panel_light(struct pel_state *state) {
             pel_panel_changed(state, "remove a light");
         }
     }
+    if (pel_widget_check("shadows", &scene->render.shadows.on))
+        pel_panel_changed(state, "shadows");
+    pel_widget_same_line();
+    if (pel_widget_check("ambient occlusion", &scene->render.ambient_occlusion.on))
+        pel_panel_changed(state, "ambient occlusion");
 }
 
 // ---- Stereo ------------------------------------------------------------------------------------
