@@ -36,6 +36,8 @@ enum {
     KEY_DEBUG,
     KEY_DENSITY,
     KEY_SHADING,
+    KEY_SHADOWS,
+    KEY_AMBIENT_OCCLUSION,
     KEY_BACKGROUND,
     KEY_STEREO,
     KEY_STEREO_SEPARATION,
@@ -131,6 +133,14 @@ static const struct argp_option argp_options[] = {
      0},
     {"order", KEY_ORDER, "front-to-back|back-to-front", 0,
      "From which end a ray's samples are put together", 0},
+    {"shadows", KEY_SHADOWS, "on|off|KEY=VALUE,...", OPTION_ARG_OPTIONAL,
+     "Let volumes cast shadows on shaded ones; or with keys of the scene's shadows, such as "
+     "length=50,strength=0.7",
+     0},
+    {"ambient-occlusion", KEY_AMBIENT_OCCLUSION, "on|off|KEY=VALUE,...", OPTION_ARG_OPTIONAL,
+     "Darken shaded volumes where something near hides what is around, such as "
+     "directions=32,radius=20",
+     0},
     {"step", KEY_STEP, "N", 0, "Distance of samples, in voxels of the finest volume", 0},
     {"step-mm", KEY_STEP_MM, "MM", 0, "The same in millimetres", 0},
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
@@ -242,17 +252,19 @@ static bool add_camera(struct render_options *options, const char *text) {
     return true;
 }
 
-static bool add_shading(struct render_options *options, const char *text) {
+// A key that is true, false or an object.
+static bool add_switch(struct render_options *options, const char *option, const char *key,
+                       const char *text) {
     if (text && strchr(text, '=')) {
-        overrides_add(&options->overrides, "volumes.*.shading", "{}");
-        return overrides_add_pairs(&options->overrides, "--shading", "volumes.*.shading", text);
+        overrides_add(&options->overrides, key, "{}");
+        return overrides_add_pairs(&options->overrides, option, key, text);
     }
     if (text && strcmp(text, "on") != 0 && strcmp(text, "off") != 0) {
-        cli_fail(PEL_ERROR_ARGUMENT, "--shading: '%s' is not on, off or KEY=VALUE,...", text);
+        cli_fail(PEL_ERROR_ARGUMENT, "%s: '%s' is not on, off or KEY=VALUE,...", option, text);
         return false;
     }
     bool off = text && strcmp(text, "off") == 0;
-    overrides_add(&options->overrides, "volumes.*.shading", off ? "false" : "true");
+    overrides_add(&options->overrides, key, off ? "false" : "true");
     return true;
 }
 
@@ -382,7 +394,13 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         overrides_add_text(&options->overrides, "volumes.*.transfer", argument);
         break;
     case KEY_SHADING:
-        good = add_shading(options, argument);
+        good = add_switch(options, "--shading", "volumes.*.shading", argument);
+        break;
+    case KEY_SHADOWS:
+        good = add_switch(options, "--shadows", "render.shadows", argument);
+        break;
+    case KEY_AMBIENT_OCCLUSION:
+        good = add_switch(options, "--ambient-occlusion", "render.ambient_occlusion", argument);
         break;
     case KEY_BACKGROUND:
         add_background(options, argument);
