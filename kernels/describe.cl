@@ -106,6 +106,10 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, height);
     *out++ = OFFSET(struct world, tiles_x);
     *out++ = OFFSET(struct world, part_count);
+    *out++ = OFFSET(struct world, whole_width);
+    *out++ = OFFSET(struct world, whole_height);
+    *out++ = OFFSET(struct world, left);
+    *out++ = OFFSET(struct world, top);
     *out++ = OFFSET(struct world, rays_n);
     *out++ = OFFSET(struct world, pattern);
     *out++ = OFFSET(struct world, reconstruction);
@@ -118,6 +122,14 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, weave_y);
     *out++ = OFFSET(struct world, pictures);
     *out++ = OFFSET(struct world, balls);
+    *out++ = OFFSET(struct world, shadow_step_mm);
+    *out++ = OFFSET(struct world, shadow_length_mm);
+    *out++ = OFFSET(struct world, shadow_strength);
+    *out++ = OFFSET(struct world, occlusion_step_mm);
+    *out++ = OFFSET(struct world, occlusion_radius_mm);
+    *out++ = OFFSET(struct world, occlusion_strength);
+    *out++ = OFFSET(struct world, occlusion_count);
+    *out++ = OFFSET(struct world, directions);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
     *out++ = OFFSET(struct world, cuts);

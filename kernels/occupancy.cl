@@ -20,12 +20,6 @@ struct cell_dims {
     int x, y, z;
 };
 
-static struct cell_dims cell_dims(__constant struct part *part, uint count) {
-    const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
-                                   (int)count / part->cell_slice};
-    return dims;
-}
-
 // The range of the values that samples in cell i may have. A cubic filter reads a voxel more on
 // each side, so its cells have a share in their neighbours; and Catmull & Rom's weights, whose
 // absolute values add up to at most 5/4 along an axis, lead out of the range of the voxels by at
@@ -165,6 +159,10 @@ static uchar find_brick(__constant struct part *part, __global const uchar *cell
     return 0;
 }
 
+#if SKIP == SKIP_BLOCKS
+#include "bins.cl"
+#endif
+
 // One pass over the `count` cells of a part, from `in` to `out`, in which empty cells hold `empty`
 // at first. `linear` tells that the kernel interpolates between table entries. One kernel for all
 // passes, because each one more costs a cold start an eighth of a second.
@@ -176,9 +174,28 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     if (i >= count)
         return;
     __constant struct part *part = &world->parts[part_index];
-    const struct cell_dims dims = cell_dims(part, count);
+    const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
+                                   (int)count / part->cell_slice};
     in += part->cells;
+#if SKIP == SKIP_BLOCKS
+    // `empty` says how large a sub-block is, or that no data are to be stored as well.
+    if (pass == PASS_SEEN) {
+        keep_seen(part, in, out, dims, (int)i, (int)empty);
+        return;
+    }
+#endif
     out += part->cells;
+#if SKIP == SKIP_BLOCKS
+    if (pass == PASS_VISIBLE)
+        out[i] = visible_bins(part, visible + part->visible);
+    else if (pass == PASS_CORNER)
+        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0),
+                          visible + part->visible, linear);
+    else if (pass >= PASS_BINS)
+        out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS),
+                           empty);
+    else
+#endif
     if (pass == PASS_OCCUPY)
         out[i] = find_cell(world, part, ranges, visible, dims, (int)i, linear, (uchar)empty);
     else if (pass == PASS_NAME)

@@ -34,7 +34,8 @@ INLINE struct ray eye_rays(__constant struct world *world, int eye, int left, in
 #if EYES == EYES_WOVEN
     const struct ray first = camera_ray(world, &world->camera, x, y);
     const struct ray second = camera_ray(world, &world->second, x, y);
-    const integer sum = (left + LANE_X) * world->weave_x + (top + LANE_Y) * world->weave_y;
+    const integer sum = (world->left + left + LANE_X) * world->weave_x +
+                        (world->top + top + LANE_Y) * world->weave_y;
     return choose_rays(&first, &second, MASK((sum & 1) != 0));
 #elif EYES == EYES_BOTH
     return camera_ray(world, eye ? &world->second : &world->camera, x, y);
@@ -45,7 +46,7 @@ INLINE struct ray eye_rays(__constant struct world *world, int eye, int left, in
 
 // The rays of the packet whose first pixel is (left, top).
 INLINE struct ray pixel_rays(__constant struct world *world, int eye, int left, int top RAY_PARAMETERS) {
-    const real x = TO_REAL(left + LANE_X), y = TO_REAL(top + LANE_Y);
+    const real x = TO_REAL(world->left + left + LANE_X), y = TO_REAL(world->top + top + LANE_Y);
 #if SUPERSAMPLING || JITTER
     float xs[LANES], ys[LANES], phases[LANES], runs[LANES];
 #if SUPERSAMPLING
@@ -53,7 +54,7 @@ INLINE struct ray pixel_rays(__constant struct world *world, int eye, int left, 
 #endif
     for (int lane = 0; lane < LANES; lane++) {
         const int x_px = left + lane % PACKET_W, y_px = top + lane / PACKET_W;
-        const uint key = pattern_key(world->seed, x_px, y_px);
+        const uint key = pattern_key(world->seed, world->left + x_px, world->top + y_px);
 #if SUPERSAMPLING
         const uint s = number == RAY_CENTRE ? 0 : number;
 #else

@@ -45,12 +45,12 @@ struct span {
     real near, far;
 };
 
-// The rays through the places x and y of the picture: pixels, from its left and top edge. Whether they run, and their
-// phases, are left to the caller.
+// The rays of a camera through the places x and y of the whole picture: pixels, from its left and top edge. Whether they
+// run, and their phases, are left to the caller.
 INLINE struct ray camera_ray(__constant struct world *world, __constant struct camera *camera, real x,
                              real y) {
-    const real u = x * (2.0f / (float)world->width) - 1.0f;
-    const real v = 1.0f - y * (2.0f / (float)world->height);
+    const real u = x * (2.0f / (float)world->whole_width) - 1.0f;
+    const real v = 1.0f - y * (2.0f / (float)world->whole_height);
     struct ray ray;
     ray.ox = camera->eye.x + u * camera->eye_right.x + v * camera->eye_up.x;
     ray.oy = camera->eye.y + u * camera->eye_right.y + v * camera->eye_up.y;

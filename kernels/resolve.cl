@@ -44,7 +44,7 @@ __kernel void resolve(__constant struct world *world, __global const float4 *lig
     } else {
         for (int y_near = max(y - 1, 0); y_near <= min(y + 1, world->height - 1); y_near++) {
             for (int x_near = max(x - 1, 0); x_near <= min(x + 1, world->width - 1); x_near++) {
-                const uint key = pattern_key(world->seed, x_near, y_near);
+                const uint key = pattern_key(world->seed, world->left + x_near, world->top + y_near);
                 const struct pattern_place place =
                     pattern_place(world->pattern, world->rays_n, key, number);
                 const float weight =

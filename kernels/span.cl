@@ -4,6 +4,7 @@
 
 #include "shared/probe.h"
 #include "clip.cl"
+#include "traverse/hierarchy.cl"
 #include "traverse/leap.cl"
 #include "shared/grid.h"
 
@@ -23,6 +24,8 @@
 #include "traverse/octree.cl"
 #elif SKIP == SKIP_BVH
 #include "traverse/bvh.cl"
+#elif SKIP == SKIP_BLOCKS
+#include "traverse/blocks.cl"
 #else
 #include "traverse/grid.cl"
 #endif
@@ -46,8 +49,8 @@
 #define MODELS 0 // what else than absorption, gathered front to back, occurs: MODELS_*
 #endif
 
-// With room for one part only, the compiler must see that there is only one, or it keeps the cursor
-// in memory instead of registers.
+// With room for one part only, the compiler must see that there is only one, or it keeps the cursor in
+// memory instead of registers.
 #define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
 #define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
 
@@ -83,8 +86,7 @@ struct crossing {
     integer mirror; // what the numbers of a sample front to back and back to front add up to
 #endif
 #if MIXING == MIXING_ORDERED
-    // Where samples 0 of each lie and how far apart they are, in steps of the world from its sample
-    // 0.
+    // Where samples 0 of each lie and how far apart they are, in steps of the world from its sample 0.
     real starts[CAPACITY];
     float strides[CAPACITY];
 #endif

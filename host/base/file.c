@@ -107,8 +107,17 @@ static bool give_name(struct pel_output *output) {
     return true;
 }
 
+// The file that a link leads to, so that it is replaced and the link stays; other paths as they
+// are. Memory to free(), or NULL (MEMORY).
+static char *follow_link(const char *path) {
+    struct stat status;
+    bool is_link = lstat(path, &status) == 0 && S_ISLNK(status.st_mode);
+    char *target = is_link ? realpath(path, NULL) : NULL;
+    return target ? target : pel_copy_text(path);
+}
+
 bool pel_output_open(struct pel_output *output, const char *path) {
-    *output = (struct pel_output){.path = pel_copy_text(path)};
+    *output = (struct pel_output){.path = follow_link(path)};
     if (!output->path)
         return false;
     int descriptor = open_nameless(output);

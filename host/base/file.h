@@ -15,7 +15,8 @@ char *pel_file_read(const char *path, size_t limit, size_t *bytes);
 bool pel_file_size(const char *path, size_t *bytes);
 
 // A file being written: bytes go to a temporary beside `path`, which takes its place in
-// pel_output_commit. Until then an old file of that name stays untouched.
+// pel_output_commit. Until then an old file of that name stays untouched. A link to a file stays,
+// and the file is replaced; one that leads nowhere is replaced itself.
 struct pel_output {
     char *path, *temporary; // owned
     FILE *stream;           // a library may open `temporary` itself and write there instead

@@ -35,7 +35,8 @@ struct arguments {
 static const struct argp_option options[] = {
     {0, 0, NULL, 0, "The window:", 1},
     {"size", KEY_SIZE, "WxH", 0, "Its size (default: that of the scene's picture)", 0},
-    {"full-screen", KEY_FULL_SCREEN, NULL, 0, "Begin on the whole screen", 0},
+    {"full-screen", KEY_FULL_SCREEN, "N", OPTION_ARG_OPTIONAL,
+     "Begin on the whole screen, of monitor N if there are several, counted from 0 (default 0)", 0},
     {"bare", KEY_BARE, NULL, 0, "Begin without panels and read-outs", 0},
     {"rate", KEY_RATE, "N", 0, "Pictures per second to hold while things move (default 30)", 0},
     {0, 0, NULL, 0, "Demonstrations and tests:", 2},
@@ -78,7 +79,9 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         good = cli_sizes("--size", argument, 2, viewer->size);
         break;
     case KEY_FULL_SCREEN:
-        viewer->full_screen = true;
+        viewer->full_screen = 0;
+        good = !argument || cli_integer("--full-screen", argument, 0, &viewer->full_screen);
+        viewer->full_screen++;
         break;
     case KEY_BARE:
         viewer->bare = true;

@@ -28,7 +28,8 @@ const char *report_reader(enum pel_reader reader) {
 }
 
 const char *report_skip(enum pel_skip skip) {
-    static const char *const names[] = {"auto", "none", "grid", "distance", "octree", "bvh"};
+    static const char *const names[] = {"auto",   "none", "grid",  "distance",
+                                        "octree", "bvh",  "blocks"};
     return names[skip];
 }
 

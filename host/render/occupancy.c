@@ -4,18 +4,17 @@
 // Nothing but counts of visible table entries is sent, so editing a transfer function costs two
 // look-ups a cell and a few passes over the cells (three for distances, and for an octree as much
 // as two and a seventh), and moving the camera or a volume costs nothing here. For `bvh` the
-// active bricks come back, a byte each, and are clustered here.
+// active bricks come back, a byte each, and are clustered here. Blocks stay as they are.
 #include "render/occupancy.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "render/passes.h"
 #include "shared/grid.h"
 #include "world/bricks.h"
 #include "world/mask.h"
-
-enum { GROUP = 16 };
 
 static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device, size_t cells) {
     if (occupancy->cells && occupancy->scratch && cells <= occupancy->cell_count)
@@ -39,9 +38,11 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
     key->linear = world->table_linear;
     // `grid` and `distance` go by the same cells.
     key->skip = skip == PEL_SKIP_GRID ? PEL_SKIP_DISTANCE : skip;
-    if (skip == PEL_SKIP_BVH) {
-        key->brick_size = bricks->size;
-        key->apart = bricks->apart;
+    if (skip == PEL_SKIP_BVH || skip == PEL_SKIP_BLOCKS) {
+        key->bricks.size = bricks->size;
+        key->bricks.apart = bricks->apart;
+        key->bricks.stay = bricks->stay;
+        key->bricks.keep = bricks->keep;
     }
     for (int p = 0; p < key->part_count; p++) {
         const struct part *part = &world->bytes.parts[p];
@@ -67,29 +68,12 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
         key->masks = pel_mask_hash(world);
 }
 
-static bool set_pass(struct pel_occupancy *occupancy, const struct pel_buffer *in,
-                     const struct pel_buffer *out, uint32_t pass) {
-    struct pel_kernel *kernel = occupancy->kernel;
-    return pel_kernel_set_buffer(kernel, 3, in) && pel_kernel_set_buffer(kernel, 4, out) &&
-           pel_kernel_set_u32(kernel, 8, pass);
-}
-
-static bool launch(struct pel_occupancy *occupancy, size_t items) {
-    return pel_kernel_launch(occupancy->kernel, (items + GROUP - 1) / GROUP * GROUP, GROUP);
-}
-
-// One pass over the `count` cells of a part, from `in` to `out`.
-static bool run_pass(struct pel_occupancy *occupancy, const struct pel_buffer *in,
-                     const struct pel_buffer *out, size_t count, uint32_t pass) {
-    return set_pass(occupancy, in, out, pass) && launch(occupancy, count);
-}
-
 // The passes after the first: from `scratch`, which holds what is empty, to `cells`.
 static bool spread_distances(struct pel_occupancy *occupancy, size_t count) {
     const struct pel_buffer *cells = occupancy->cells, *scratch = occupancy->scratch;
-    return run_pass(occupancy, scratch, cells, count, 0) &&
-           run_pass(occupancy, cells, scratch, count, 1) &&
-           run_pass(occupancy, scratch, cells, count, 2);
+    return pel_pass_run(occupancy, scratch, cells, count, 0) &&
+           pel_pass_run(occupancy, cells, scratch, count, 1) &&
+           pel_pass_run(occupancy, scratch, cells, count, 2);
 }
 
 // Joins empty nodes level by level up to the root, and tells every cell.
@@ -99,11 +83,11 @@ static bool grow_octree(struct pel_occupancy *occupancy, const size_t cells[3]) 
     for (uint32_t level = 1; good && (dims[0] > 1 || dims[1] > 1 || dims[2] > 1); level++) {
         for (int i = 0; i < 3; i++)
             dims[i] = (dims[i] + 1) / 2;
-        good = set_pass(occupancy, occupancy->scratch, occupancy->scratch, PASS_MERGE + level) &&
-               launch(occupancy, dims[0] * dims[1] * dims[2]);
+        good = pel_pass_run(occupancy, occupancy->scratch, occupancy->scratch,
+                            dims[0] * dims[1] * dims[2], PASS_MERGE + level);
     }
-    return good && run_pass(occupancy, occupancy->scratch, occupancy->cells,
-                            cells[0] * cells[1] * cells[2], PASS_NAME);
+    return good && pel_pass_run(occupancy, occupancy->scratch, occupancy->cells,
+                                cells[0] * cells[1] * cells[2], PASS_NAME);
 }
 
 // Reduces the cells of part p to bricks, at the beginning of the part's cells.
@@ -111,20 +95,8 @@ static bool find_bricks(struct pel_occupancy *occupancy, const struct pel_world 
                         int size) {
     size_t dims[3];
     size_t bricks = pel_hierarchy_bricks(world, p, size, dims);
-    uint32_t bits = 0;
-    while (world->cell_side << bits < size)
-        bits++;
-    return set_pass(occupancy, occupancy->scratch, occupancy->cells, PASS_BRICK + bits) &&
-           launch(occupancy, bricks);
-}
-
-// Binds what belongs to part p and to no other; *count is the number of its cells.
-static bool set_part(struct pel_occupancy *occupancy, const struct pel_world *world, int p,
-                     size_t cells[3], size_t *count) {
-    pel_world_cells(world, p, cells);
-    *count = cells[0] * cells[1] * cells[2];
-    return pel_kernel_set_u32(occupancy->kernel, 5, (uint32_t)p) &&
-           pel_kernel_set_u32(occupancy->kernel, 6, (uint32_t)*count);
+    return pel_pass_run(occupancy, occupancy->scratch, occupancy->cells, bricks,
+                        PASS_BRICK + pel_pass_bits(world, size));
 }
 
 // Finds the empty cells of all parts: in `scratch`.
@@ -139,8 +111,8 @@ static bool occupy(struct pel_occupancy *occupancy, const struct pel_world *worl
                 pel_kernel_set_u32(kernel, 9, tree ? 1 : CELL_DISTANCE_MAX);
     for (int p = 0; good && p < world->bytes.part_count; p++) {
         size_t cells[3], count;
-        good = set_part(occupancy, world, p, cells, &count) &&
-               run_pass(occupancy, occupancy->cells, occupancy->scratch, count, PASS_OCCUPY);
+        good = pel_pass_set_part(occupancy, world, p, cells, &count) &&
+               pel_pass_run(occupancy, occupancy->cells, occupancy->scratch, count, PASS_OCCUPY);
     }
     return good;
 }
@@ -183,11 +155,11 @@ static bool derive(struct pel_occupancy *occupancy, const struct pel_world *worl
     bool good = true;
     for (int p = 0; good && p < world->bytes.part_count; p++) {
         size_t cells[3], count;
-        good = set_part(occupancy, world, p, cells, &count);
+        good = pel_pass_set_part(occupancy, world, p, cells, &count);
         if (occupancy->key.skip == PEL_SKIP_OCTREE)
             good = good && grow_octree(occupancy, cells);
         else if (occupancy->key.skip == PEL_SKIP_BVH)
-            good = good && find_bricks(occupancy, world, p, occupancy->key.brick_size);
+            good = good && find_bricks(occupancy, world, p, occupancy->key.bricks.size);
         else if (occupancy->key.skip == PEL_SKIP_DISTANCE)
             good = good && spread_distances(occupancy, count);
     }
@@ -207,6 +179,34 @@ static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *
     return good;
 }
 
+// The kernel for the passes, one that knows blocks and masks where there are any.
+static bool find_kernel(struct pel_occupancy *occupancy, const struct pel_world *world,
+                        const struct pel_kernel *render, enum pel_skip skip) {
+    bool blocks = skip == PEL_SKIP_BLOCKS;
+    if (occupancy->kernel && occupancy->knows_blocks >= blocks &&
+        occupancy->knows_masks >= world->masked)
+        return true;
+    pel_kernel_destroy(occupancy->kernel);
+    occupancy->kernel = pel_kernel_sibling(render, "occupancy");
+    occupancy->knows_blocks = blocks;
+    occupancy->knows_masks = world->masked;
+    return occupancy->kernel != NULL;
+}
+
+// From the empty cells of all parts to what the kernel is given. `same` tells that nothing but
+// tables has changed.
+static bool make_map(struct pel_occupancy *occupancy, struct pel_device *device,
+                     const struct pel_world *world, const struct pel_brick_settings *bricks,
+                     double start_ms, bool same) {
+    if (occupancy->key.skip == PEL_SKIP_BLOCKS)
+        return pel_block_map_update(occupancy, device, world, bricks, start_ms, same);
+    pel_block_map_finish(&occupancy->blocks);
+    return derive(occupancy, world) &&
+           (occupancy->key.skip == PEL_SKIP_BVH
+                ? build_hierarchy(occupancy, device, world, bricks, start_ms)
+                : pel_device_finish(device));
+}
+
 bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *device,
                           const struct pel_world *world, const struct pel_buffer *world_buffer,
                           struct pel_residency *residency, const struct pel_scene *scene,
@@ -216,28 +216,25 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
         return make_room(occupancy, device, 1);
     double start_ms = pel_clock_ms();
     bool changed = false;
-    if (!occupancy->kernel)
-        occupancy->kernel = pel_kernel_sibling(render, "occupancy");
-    if (!occupancy->kernel || !make_room(occupancy, device, world->cell_count) ||
+    if (!find_kernel(occupancy, world, render, skip) ||
+        !make_room(occupancy, device, world->cell_count) ||
         !pel_mirror_update(&occupancy->visible, device, world->visible,
                            world->visible_words * sizeof *world->visible, 0, "visible entries",
                            &changed))
         return false;
-    struct pel_brick_settings bricks = pel_bricks_resolve(&scene->render.bricks);
+    struct pel_brick_settings bricks = pel_bricks_resolve(&scene->render.bricks, skip);
     if (bricks.size < world->cell_side)
         bricks.size = world->cell_side;
     struct pel_occupancy_key key;
     make_key(&key, world, &residency->layout, skip, &bricks);
-    if (!changed && memcmp(&key, &occupancy->key, sizeof key) == 0 &&
-        (!world->pool || residency->pool.filled))
+    bool same = memcmp(&key, &occupancy->key, sizeof key) == 0;
+    if (!changed && same && (!world->pool || residency->pool.filled))
         return true;
     memcpy(&occupancy->key, &key, sizeof key);
     pel_hierarchy_finish(&occupancy->hierarchy);
     bool good = occupy(occupancy, world, world_buffer, residency) &&
                 (!world->pool || fill_pool(occupancy, world, residency, scene, limits)) &&
-                derive(occupancy, world) &&
-                (skip == PEL_SKIP_BVH ? build_hierarchy(occupancy, device, world, &bricks, start_ms)
-                                      : pel_device_finish(device));
+                make_map(occupancy, device, world, &bricks, start_ms, same);
     if (!good)
         occupancy->key.part_count = 0;
     return good;
@@ -246,17 +243,30 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
 uint64_t pel_occupancy_bytes(const struct pel_occupancy *occupancy) {
     return pel_buffer_bytes(occupancy->cells) + pel_buffer_bytes(occupancy->scratch) +
            pel_buffer_bytes(occupancy->visible.buffer) +
-           pel_buffer_bytes(occupancy->hierarchy.nodes);
+           pel_buffer_bytes(occupancy->hierarchy.nodes) +
+           pel_buffer_bytes(occupancy->blocks.buffer);
+}
+
+struct pel_brick_statistics pel_occupancy_bricks(const struct pel_occupancy *occupancy) {
+    struct pel_brick_statistics statistics = occupancy->hierarchy.statistics;
+    if (occupancy->blocks.buffer) {
+        statistics = occupancy->blocks.statistics;
+        statistics.resident = occupancy->hierarchy.statistics.resident;
+    }
+    return statistics;
 }
 
 const struct pel_buffer *pel_occupancy_map(const struct pel_occupancy *occupancy) {
-    return occupancy->hierarchy.nodes ? occupancy->hierarchy.nodes : occupancy->cells;
+    return occupancy->hierarchy.nodes ? occupancy->hierarchy.nodes
+           : occupancy->blocks.buffer ? occupancy->blocks.buffer
+                                      : occupancy->cells;
 }
 
 void pel_occupancy_finish(struct pel_occupancy *occupancy) {
     pel_kernel_destroy(occupancy->kernel);
     pel_mirror_finish(&occupancy->visible);
     pel_hierarchy_finish(&occupancy->hierarchy);
+    pel_block_map_finish(&occupancy->blocks);
     pel_buffer_destroy(occupancy->cells);
     pel_buffer_destroy(occupancy->scratch);
     memset(occupancy, 0, sizeof *occupancy);

@@ -3,6 +3,7 @@
 #ifndef PEL_RENDER_OCCUPANCY_H
 #define PEL_RENDER_OCCUPANCY_H
 
+#include "render/block_map.h"
 #include "render/hierarchy.h"
 #include "render/mirror.h"
 #include "render/residency.h"
@@ -13,21 +14,22 @@ struct pel_occupancy_key {
     struct pel_layout layout;
     struct part parts[WORLD_PART_MAX]; // with only the members that matter filled in
     int part_count;
-    bool linear;        // tables are interpolated
-    enum pel_skip skip; // for which
-    int brick_size;     // of `bvh`
-    bool apart;         //
-    uint64_t masks;     // a hash of what masks select, and of where
+    bool linear;                      // tables are interpolated
+    enum pel_skip skip;               // for which
+    struct pel_brick_settings bricks; // of `bvh` and `blocks`
+    uint64_t masks;                   // a hash of what masks select, and of where
 };
 
 // Zero-initialise.
 struct pel_occupancy {
     struct pel_kernel *kernel;
-    struct pel_mirror visible; // counts of visible entries
+    bool knows_blocks, knows_masks; // what there is in its program
+    struct pel_mirror visible;      // counts of visible entries
     struct pel_buffer *cells,
         *scratch;                   // a byte for each cell of each part, and room to work in
     size_t cell_count;              // room in both
     struct pel_hierarchy hierarchy; // for `bvh`
+    struct pel_block_map blocks;    // for `blocks`
     struct pel_occupancy_key key;   // what they are for; part_count 0 = nothing
 };
 
@@ -43,6 +45,9 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
 
 // The bytes on the device for it.
 uint64_t pel_occupancy_bytes(const struct pel_occupancy *occupancy);
+
+// What there is of bricks, sub-blocks or the pool; zeros where nothing is.
+struct pel_brick_statistics pel_occupancy_bricks(const struct pel_occupancy *occupancy);
 
 // What the kernel skips by. Borrowed.
 const struct pel_buffer *pel_occupancy_map(const struct pel_occupancy *occupancy);

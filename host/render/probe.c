@@ -67,7 +67,8 @@ static bool find_spans(struct pel_probe *probe, const struct probe *ray,
 // The ray through the centre of pixel (x, y), as camera_ray in kernels/ray.cl has it.
 static void find_ray(struct pel_probe *probe, const struct pel_world *world, int x, int y) {
     const struct camera *camera = &world->bytes.camera;
-    double u = (x + 0.5) * 2 / world->bytes.width - 1, v = 1 - (y + 0.5) * 2 / world->bytes.height;
+    double u = (x + 0.5) * 2 / world->bytes.whole_width - 1,
+           v = 1 - (y + 0.5) * 2 / world->bytes.whole_height;
     const double origin[3] = {camera->eye.x + u * camera->eye_right.x + v * camera->eye_up.x,
                               camera->eye.y + u * camera->eye_right.y + v * camera->eye_up.y,
                               camera->eye.z + u * camera->eye_right.z + v * camera->eye_up.z};

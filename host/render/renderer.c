@@ -17,6 +17,7 @@
 #include "render/mirror.h"
 #include "render/occupancy.h"
 #include "render/probe.h"
+#include "render/region.h"
 #include "render/residency.h"
 #include "render/resolve.h"
 #include "render/target.h"
@@ -63,22 +64,6 @@ static bool grow_buffer(struct pel_buffer **buffer, size_t *have, size_t bytes,
 }
 
 // ---- One frame ---------------------------------------------------------------------------------
-
-// Refuses a frame whose voxels and picture together do not fit, before anything is allocated.
-static bool check_memory(const struct pel_layout *layout, const struct pel_layout_limits *limits,
-                         uint64_t frame_bytes) {
-    uint64_t needed = frame_bytes;
-    for (int b = 0; b < VOXEL_BUFFERS; b++)
-        needed += layout->buffer_bytes[b];
-    for (int class = 0; class < VOXEL_CLASS_COUNT; class ++)
-        needed += (uint64_t)layout->atlas[class][0] * layout->atlas[class][1] *
-                  layout->atlas[class][2] * pel_voxel_class_bytes(class);
-    if (needed > limits->memory_bytes)
-        return pel_fail(PEL_ERROR_DEVICE,
-                        "volumes and picture need %llu bytes, the device has %llu",
-                        (unsigned long long)needed, (unsigned long long)limits->memory_bytes);
-    return true;
-}
 
 // Pixels of all pictures of a frame.
 static size_t count_pixels(const struct pel_world *world) {
@@ -217,7 +202,7 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     if (statistics->skip != PEL_SKIP_NONE || world->pool) {
         statistics->skip_bytes = pel_occupancy_bytes(&renderer->occupancy) +
                                  pel_buffer_bytes(renderer->residency.ranges);
-        statistics->bricks = renderer->occupancy.hierarchy.statistics;
+        statistics->bricks = pel_occupancy_bricks(&renderer->occupancy);
     }
     statistics->work_group = (int)tiling->group;
     statistics->kernel = pel_kernel_describe(kernel);
@@ -348,7 +333,7 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     size_t pixel_bytes = (size_t)pel_world_planes(world) * sizeof(float4) +
                          (world->supersampling ? PEL_RESOLVE_BYTES : 0);
     if ((eyes->second && !pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave)) ||
-        !check_memory(layout, &limits, count_pixels(world) * pixel_bytes)) {
+        !pel_residency_check(layout, &limits, count_pixels(world) * pixel_bytes)) {
         pel_world_finish(world);
         return false;
     }
@@ -372,9 +357,15 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_layout layout;
     struct pel_world world;
     struct pel_scene shown;
-    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown) ||
-        !plan(renderer, &shown, eyes, &layout, &world, statistics))
+    if (!pel_region_check(&scene->render) ||
+        !pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown))
         return NULL;
+    pel_region_widen(&shown.render);
+    if (!plan(renderer, &shown, eyes, &layout, &world, statistics))
+        return NULL;
+    // What follows knows only the part of the picture that is made.
+    shown.render.width = world.bytes.width;
+    shown.render.height = world.bytes.height;
     struct pel_image *image = NULL;
     if (world.bytes.part_count == 0) {
         image = render_background(&world);
@@ -390,7 +381,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     memcpy(statistics->driver, info->driver, sizeof statistics->driver);
     statistics->device_bytes = pel_device_allocated_bytes(renderer->device);
     statistics->uploaded_bytes = pel_device_uploaded_bytes(renderer->device) - uploaded_before;
-    return image;
+    return pel_region_cut(image, &shown.render, &scene->render);
 }
 
 bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *scene, int x, int y,
@@ -402,6 +393,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
     struct pel_scene seen;
     if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen))
         return false;
+    memset(seen.render.region, 0, sizeof seen.render.region);
     seen.render.debug = PEL_DEBUG_NONE;
     seen.render.supersampling.n = 0;
     seen.render.supersampling.pattern = PEL_PATTERN_REGULAR;
@@ -423,7 +415,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
         .residency = &renderer->residency,
         .world_buffer = renderer->world.buffer,
         .tables = renderer->tables.buffer,
-        .cells = renderer->occupancy.cells,
+        .cells = pel_occupancy_map(&renderer->occupancy),
         .scene = &seen,
         .world = &world,
     };
@@ -445,7 +437,7 @@ struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *opti
     if (!renderer)
         return NULL;
     renderer->options = chosen;
-    renderer->device = pel_device_open(chosen.device);
+    renderer->device = pel_device_open(chosen.device, chosen.compute_units);
     renderer->options.device = NULL; // it was borrowed for this call
     renderer->residency.device = renderer->device;
     if (!renderer->device) {

@@ -44,11 +44,17 @@ struct pel_parallax pel_parallax_between(const struct pel_camera cameras[2], int
         .reach_mm_px = width * apart / (2 * half_height(&cameras[0]) * aspect)};
 }
 
-void pel_depth_from_distance(float *depth, const struct pel_camera *camera, int width, int height) {
+void pel_depth_from_distance(float *depth, const struct pel_camera *camera,
+                             const struct pel_render_settings *settings) {
+    int width = settings->width, height = settings->height;
+    int left = settings->region[0], right_end = left + settings->region[2];
+    int top = settings->region[1], bottom = top + settings->region[3];
+    if (settings->region[2] == 0)
+        right_end = width, bottom = height;
     double half = half_height(camera), aspect = (double)width / height;
-    for (int y = 0; y < height; y++) {
+    for (int y = top; y < bottom; y++) {
         double up = half * (1 - 2 * (y + 0.5) / height + 2 * camera->shift[1]);
-        for (int x = 0; x < width; x++, depth++) {
+        for (int x = left; x < right_end; x++, depth++) {
             double right = half * (aspect * (2 * (x + 0.5) / width - 1) + 2 * camera->shift[0]);
             *depth =
                 *depth == FLT_MAX ? INFINITY : (float)(*depth / sqrt(1 + right * right + up * up));

@@ -10,7 +10,7 @@ struct pel_parallax {
     double shift_px, reach_mm_px;
 };
 
-// That of two parallel cameras of perspective and one height, for pictures of that size.
+// That of two parallel cameras of perspective and one height, for whole pictures of that size.
 struct pel_parallax pel_parallax_between(const struct pel_camera cameras[2], int width, int height);
 
 // Moves a picture's colours to the second eye's picture. `depth` holds the depth along the view of
@@ -21,7 +21,8 @@ bool pel_reproject(struct pel_image *second, uint8_t *holes, const struct pel_im
                    const float *depth, const struct pel_parallax *parallax);
 
 // The depths along the view of a perspective camera, in place, from distances along the rays of a
-// picture of that size; 0 stays 0, and FLT_MAX becomes INFINITY.
-void pel_depth_from_distance(float *depth, const struct pel_camera *camera, int width, int height);
+// picture, or of its region; 0 stays 0, and FLT_MAX becomes INFINITY.
+void pel_depth_from_distance(float *depth, const struct pel_camera *camera,
+                             const struct pel_render_settings *settings);
 
 #endif

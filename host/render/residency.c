@@ -252,6 +252,21 @@ bool pel_residency_bind(const struct pel_residency *residency, struct pel_kernel
     return good && pel_kernel_set_u32(kernel, index, atlas_count);
 }
 
+bool pel_residency_check(const struct pel_layout *layout, const struct pel_layout_limits *limits,
+                         uint64_t frame_bytes) {
+    uint64_t needed = frame_bytes;
+    for (int b = 0; b < VOXEL_BUFFERS; b++)
+        needed += layout->buffer_bytes[b];
+    for (int class = 0; class < VOXEL_CLASS_COUNT; class ++)
+        needed += (uint64_t)layout->atlas[class][0] * layout->atlas[class][1] *
+                  layout->atlas[class][2] * pel_voxel_class_bytes(class);
+    if (needed > limits->memory_bytes)
+        return pel_fail(PEL_ERROR_DEVICE,
+                        "volumes and picture need %llu bytes, the device has %llu",
+                        (unsigned long long)needed, (unsigned long long)limits->memory_bytes);
+    return true;
+}
+
 void pel_residency_finish(struct pel_residency *residency) {
     for (int b = 0; b < VOXEL_BUFFERS; b++) {
         pel_buffer_destroy(residency->buffers[b]);

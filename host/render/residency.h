@@ -22,6 +22,11 @@ struct pel_residency {
 struct pel_layout_limits pel_residency_limits(const struct pel_device *device,
                                               uint64_t max_allocation_bytes);
 
+// Refuses (DEVICE) a frame whose voxels and picture together do not fit, before anything is
+// allocated. `frame_bytes` are those of the picture.
+bool pel_residency_check(const struct pel_layout *layout, const struct pel_layout_limits *limits,
+                         uint64_t frame_bytes);
+
 // Brings the scene's volumes to where `layout` puts them, and recipes that are worked out at every
 // sample beside them. Nothing is sent when they lie there
 // already. On failure (DEVICE, MEMORY) nothing stays on the device.

@@ -147,8 +147,9 @@ static bool make_second(struct pel_renderer *renderer, struct pel_scene *seen,
     for (size_t i = 0; good && i < pixels; i++)
         depth[i] = second.rgba[4 * i];
     if (good) {
-        const struct pel_parallax parallax = pel_parallax_between(cameras, width, height);
-        pel_depth_from_distance(depth, &cameras[0], width, height);
+        const struct pel_parallax parallax =
+            pel_parallax_between(cameras, seen->render.width, seen->render.height);
+        pel_depth_from_distance(depth, &cameras[0], &seen->render);
         good = pel_reproject(&second, holes, &first, depth, &parallax);
     }
     for (size_t i = 0; good && i < pixels; i++)
@@ -235,6 +236,21 @@ bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_sc
     return good;
 }
 
+// Rows and columns are counted in the whole picture.
+static bool begins_with_the_other_eye(const struct pel_scene *scene) {
+    const int *region = scene->render.region;
+    switch (scene->stereo.kind) {
+    case PEL_STEREO_ROW_INTERLACED:
+        return region[1] % 2 != 0;
+    case PEL_STEREO_COLUMN_INTERLACED:
+        return region[0] % 2 != 0;
+    case PEL_STEREO_CHECKERBOARD:
+        return (region[0] + region[1]) % 2 != 0;
+    default:
+        return false;
+    }
+}
+
 struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struct pel_scene *scene,
                                       const struct pel_render_options *options,
                                       struct pel_render_statistics *statistics) {
@@ -252,9 +268,11 @@ struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struc
     double begin_ms = pel_clock_ms();
     int height = image->height / 2;
     size_t floats = (size_t)image->width * (size_t)height * 4;
-    const struct pel_image left = {image->width, height, image->rgba};
-    const struct pel_image right = {image->width, height, image->rgba + floats};
-    struct pel_image *composed = pel_stereo_compose(&scene->stereo, &left, &right);
+    const struct pel_image pictures[2] = {{image->width, height, image->rgba},
+                                          {image->width, height, image->rgba + floats}};
+    bool odd = begins_with_the_other_eye(scene);
+    struct pel_image *composed =
+        pel_stereo_compose(&scene->stereo, &pictures[odd], &pictures[!odd]);
     statistics->stereo.compose_ms = pel_clock_ms() - begin_ms;
     pel_image_destroy(image);
     return composed;

@@ -15,6 +15,8 @@ static int skip_knob(enum pel_skip skip) {
         return SKIP_OCTREE;
     case PEL_SKIP_BVH:
         return SKIP_BVH;
+    case PEL_SKIP_BLOCKS:
+        return SKIP_BLOCKS;
     case PEL_SKIP_AUTO:
     case PEL_SKIP_DISTANCE:
         break;
@@ -44,6 +46,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
                                  : WORLD_PART_MAX,
         .shading = world->shaded,
         .style = world->styled,
+        .secondary = world->secondary,
         .table_linear = world->table_linear,
         .supersampling = world->supersampling,
         .jitter = world->jitter,
@@ -62,11 +65,12 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
              "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d "
-             "-DGROUP_ROWS=%d -DPOOL=%d -DCLIP=%d -DSTYLE=%d -DLIVE=%d -DEYES=%d -DMASKED=%d",
+             "-DGROUP_ROWS=%d -DPOOL=%d -DCLIP=%d -DSTYLE=%d -DLIVE=%d -DEYES=%d -DMASKED=%d "
+             "-DSECONDARY=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
              variant->jitter, variant->debug, variant->probe, variant->models, variant->group_rows,
              variant->pool, variant->clip, variant->style, variant->live, variant->eyes,
-             variant->masked);
+             variant->masked, variant->secondary);
 }

@@ -113,7 +113,7 @@ static void save_scene(struct pel_state *state) {
     bool good = scene != NULL;
     if (good) {
         // The picture of the file is that of the window.
-        pel_screen_fit_scene(state, 0, scene);
+        pel_screen_fit_whole(state, scene);
         good = pel_scene_save(scene, state->scene_path);
     }
     if (good)
@@ -140,13 +140,32 @@ static void save_picture(struct pel_state *state) {
         pel_state_say(state, "%s", pel_error_message());
         return;
     }
-    pel_screen_fit_scene(state, 0, scene);
+    pel_screen_fit_whole(state, scene);
     if (state->save_size[0] > 0 && state->save_size[1] > 0) {
         scene->render.width = state->save_size[0];
         scene->render.height = state->save_size[1];
     }
     bool good = pel_worker_save(state->worker, scene, path);
     pel_state_say(state, "%s %s", good ? "saving" : "too many pictures wait to be saved:", path);
+}
+
+static bool use_film(struct pel_state *state, enum pel_action action) {
+    switch (action) {
+    case PEL_ACTION_KEYFRAME:
+        pel_film_keep(state);
+        return true;
+    case PEL_ACTION_KEYFRAME_BACK:
+        pel_film_take_back(state);
+        return true;
+    case PEL_ACTION_PLAY:
+        pel_film_toggle(state);
+        return true;
+    case PEL_ACTION_LEAVE_FILM:
+        pel_film_leave(state, false);
+        return true;
+    default:
+        return false;
+    }
 }
 
 static bool use_window(struct pel_state *state, enum pel_action action) {
@@ -173,8 +192,7 @@ static bool use_window(struct pel_state *state, enum pel_action action) {
         state->readouts = !state->readouts;
         return true;
     case PEL_ACTION_FULL_SCREEN:
-        for (int i = 0; i < state->window_count; i++)
-            pel_window_toggle_full_screen(state->windows[i].window);
+        pel_screen_toggle_full_screen(state);
         return true;
     case PEL_ACTION_ESCAPE:
         state->help = false;
@@ -302,7 +320,8 @@ static bool change_volume(struct pel_state *state, enum pel_action action) {
 
 void pel_command_do(struct pel_state *state, enum pel_action action, int number) {
     if (!move_camera(state, action, number) && !use_window(state, action) &&
-        !change_volume(state, action) && !pel_command_pose(state, action, number))
+        !use_film(state, action) && !change_volume(state, action) &&
+        !pel_command_pose(state, action, number))
         pel_command_look(state, action);
     state->redraw = true;
 }

@@ -58,6 +58,15 @@ static void put_together(const struct pel_compare *compare, double weight, const
         out[c] = weight == 0 ? a[c] : weight == 1 ? b[c] : a[c] + weight * (b[c] - a[c]);
 }
 
+// The same for a pixel of a picture that may be a part of the whole.
+static double weight_at(const struct pel_compare *compare, int width, int height, int x, int y,
+                        double seconds) {
+    bool part = compare->whole[0] > 0;
+    return pel_compare_weight(compare, part ? compare->whole[0] : width,
+                              part ? compare->whole[1] : height, x + compare->offset[0],
+                              y + compare->offset[1], seconds);
+}
+
 void pel_compare_pixels(const struct pel_compare *compare, int width, int height, const uint8_t *a,
                         const uint8_t *b, double seconds, uint8_t *out) {
     for (int y = 0; y < height; y++) {
@@ -68,8 +77,8 @@ void pel_compare_pixels(const struct pel_compare *compare, int width, int height
                 of_a[c] = a[at + (size_t)c];
                 of_b[c] = b[at + (size_t)c];
             }
-            put_together(compare, pel_compare_weight(compare, width, height, x, y, seconds), of_a,
-                         of_b, mixed);
+            put_together(compare, weight_at(compare, width, height, x, y, seconds), of_a, of_b,
+                         mixed);
             for (int c = 0; c < 4; c++)
                 out[at + (size_t)c] = (uint8_t)(mixed[c] + 0.5);
         }
@@ -89,8 +98,8 @@ struct pel_image *pel_compare_images(const struct pel_compare *compare, const st
                 of_a[c] = a->rgba[at + (size_t)c];
                 of_b[c] = b->rgba[at + (size_t)c];
             }
-            put_together(compare, pel_compare_weight(compare, a->width, a->height, x, y, seconds),
-                         of_a, of_b, mixed);
+            put_together(compare, weight_at(compare, a->width, a->height, x, y, seconds), of_a,
+                         of_b, mixed);
             for (int c = 0; c < 4; c++)
                 image->rgba[at + (size_t)c] = (float)mixed[c];
         }

@@ -23,6 +23,8 @@ struct pel_compare {
     double split;    // where the line is, 0..1 from the left or the top
     bool across;     // the line runs from left to right
     double period_s; // of the flicker; 0 = 1
+    int offset[2];   // where the pictures begin in the whole that squares and the line belong to
+    int whole[2];    // ... and its size; 0 = they are all of it
 };
 
 // The names of the modes, "none" first; the list ends with NULL.
@@ -31,7 +33,8 @@ const char *const *pel_compare_names(void);
 // The scene with one instance visible alone; the caller owns it. NULL when memory ran out.
 struct pel_scene *pel_compare_side(const struct pel_scene *scene, int instance);
 
-// Which of the two pictures shows at a moment and place: 0 is a, 1 b; between them both do.
+// Which of the two pictures shows at a moment and place of the whole: 0 is a, 1 b; between them
+// both do.
 double pel_compare_weight(const struct pel_compare *compare, int width, int height, int x, int y,
                           double seconds);
 

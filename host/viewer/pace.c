@@ -21,7 +21,9 @@ static int own_supersampling(const struct pel_render_settings *settings) {
 }
 
 static double units(const struct pel_render_settings *settings, const struct pel_quality *quality) {
-    double pixels = (double)settings->width * settings->height;
+    const int *region = settings->region;
+    double pixels =
+        region[2] > 0 ? (double)region[2] * region[3] : (double)settings->width * settings->height;
     double rays = (double)quality->supersampling * quality->supersampling;
     double steps = fmax(settings->step, 1e-3) * quality->step_factor;
     return pixels * rays / ((double)quality->divisor * quality->divisor) / steps;
@@ -32,6 +34,15 @@ struct pel_render_settings pel_pace_apply(const struct pel_render_settings *sett
     struct pel_render_settings applied = *settings;
     applied.width = (settings->width + quality->divisor - 1) / quality->divisor;
     applied.height = (settings->height + quality->divisor - 1) / quality->divisor;
+    const int whole[2] = {settings->width, settings->height};
+    const int fewer[2] = {applied.width, applied.height};
+    // A region of fewer pixels covers what it covered before, and perhaps a little more.
+    for (int axis = 0; axis < 2 && settings->region[2] > 0; axis++) {
+        int64_t low = settings->region[axis], high = low + settings->region[2 + axis];
+        applied.region[axis] = (int)(low * fewer[axis] / whole[axis]);
+        applied.region[2 + axis] =
+            (int)((high * fewer[axis] + whole[axis] - 1) / whole[axis]) - applied.region[axis];
+    }
     applied.step *= quality->step_factor;
     applied.step_mm *= quality->step_factor;
     if (quality->supersampling < own_supersampling(settings))
@@ -39,6 +50,20 @@ struct pel_render_settings pel_pace_apply(const struct pel_render_settings *sett
     if (quality->supersampling == 1)
         applied.supersampling.adaptive = 0;
     return applied;
+}
+
+void pel_pace_part(const struct pel_render_settings *settings,
+                   const struct pel_render_settings *applied, double part[4]) {
+    const int whole[2] = {settings->width, settings->height};
+    const int fewer[2] = {applied->width, applied->height};
+    for (int axis = 0; axis < 2; axis++) {
+        bool all = settings->region[2 + axis] == 0;
+        double scale = (double)fewer[axis] / whole[axis];
+        double low = settings->region[axis] * scale - applied->region[axis];
+        double size = settings->region[2 + axis] * scale;
+        part[axis] = all ? 0 : fmax(low / applied->region[2 + axis], 0);
+        part[2 + axis] = all ? 1 : fmin(size / applied->region[2 + axis], 1 - part[axis]);
+    }
 }
 
 double pel_pace_estimate(const struct pel_pace *pace, const struct pel_render_settings *settings,

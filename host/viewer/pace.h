@@ -26,6 +26,11 @@ struct pel_pace {
 struct pel_render_settings pel_pace_apply(const struct pel_render_settings *settings,
                                           const struct pel_quality *quality);
 
+// What shows the settings' region of a picture that was made with the applied ones, which may cover
+// a little more: left and top edge, width and height, in shares of the picture.
+void pel_pace_part(const struct pel_render_settings *settings,
+                   const struct pel_render_settings *applied, double part[4]);
+
 // What a frame of this quality will take; 0 when nothing was learned yet.
 double pel_pace_estimate(const struct pel_pace *pace, const struct pel_render_settings *settings,
                          const struct pel_quality *quality);

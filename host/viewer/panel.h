@@ -13,13 +13,15 @@ void pel_panel_clip(struct pel_state *state);
 void pel_panel_pose(struct pel_state *state);
 void pel_panel_look(struct pel_state *state);
 void pel_panel_light(struct pel_state *state);
+void pel_panel_surface(struct pel_state *state);
 void pel_panel_stereo(struct pel_state *state);
+void pel_panel_film(struct pel_state *state);
 void pel_panel_quality(struct pel_state *state);
 void pel_panel_statistics(struct pel_state *state);
 void pel_panel_file(struct pel_state *state);
 
-// Over the pictures.
-void pel_panel_overlay(struct pel_state *state);
+// Over the pictures of one window.
+void pel_panel_overlay(struct pel_state *state, int window);
 
 // ---- For all of them ---------------------------------------------------------------------------
 

@@ -8,18 +8,30 @@
 static const double message_ms = 6000, long_ms = 400;
 
 bool pel_panels_start(struct pel_state *state) {
-    return pel_widget_start(state->windows[0].scale);
+    for (int i = 0; i < state->window_count; i++) {
+        pel_window_draw_on(state->windows[i].window);
+        if (!pel_widget_start(i, state->windows[i].scale))
+            return false;
+    }
+    return true;
 }
 
-void pel_panels_stop(void) {
-    pel_widget_stop();
+void pel_panels_stop(struct pel_state *state) {
+    for (int i = 0; i < state->window_count; i++) {
+        pel_window_draw_on(state->windows[i].window);
+        pel_widget_stop(i);
+    }
 }
 
-int pel_panels_width(const struct pel_state *state) {
+static int column_width(const struct pel_state *state) {
     if (!state->panels || !state->with_panels)
         return 0;
     int width = (int)(PEL_PANELS_COLUMN * state->windows[0].scale);
     return width < state->windows[0].pixels[0] / 2 ? width : state->windows[0].pixels[0] / 2;
+}
+
+int pel_panels_width(const struct pel_state *state) {
+    return state->wall_px[0] > 0 ? 0 : column_width(state);
 }
 
 bool pel_panels_take_event(const struct pel_event *event) {
@@ -66,13 +78,15 @@ static void draw_column(struct pel_state *state) {
         {"Clipping", false, pel_panel_clip},
         {"Look", false, pel_panel_look},
         {"Lights and shading", false, pel_panel_light},
+        {"Gradients and surfaces", false, pel_panel_surface},
         {"Stereo", false, pel_panel_stereo},
+        {"Animation", false, pel_panel_film},
         {"Quality", false, pel_panel_quality},
         {"Statistics", false, pel_panel_statistics},
         {"File", false, pel_panel_file},
     };
     const struct pel_pane_window *window = &state->windows[0];
-    pel_widget_panel_begin("column", 0, 0, pel_panels_width(state), window->pixels[1]);
+    pel_widget_panel_begin("column", 0, 0, column_width(state), window->pixels[1]);
     for (size_t i = 0; i < sizeof sections / sizeof *sections; i++) {
         pel_widget_push((int)i);
         if (pel_widget_section(sections[i].title, sections[i].open)) {
@@ -106,7 +120,7 @@ static void draw_help(struct pel_state *state) {
 static void draw_line(const struct pel_state *state, int line, uint32_t colour, const char *text) {
     const struct pel_pane_window *window = &state->windows[0];
     double height = pel_widget_letter_height() + 8, width = pel_widget_text_width(text) + 16;
-    double left = pel_panels_width(state) + 12;
+    double left = column_width(state) + 12;
     double bottom = window->pixels[1] - 14 - line * (height + 4);
     const double low[2] = {left, bottom - height}, high[2] = {left + width, bottom};
     const double at[2] = {left + 8, bottom - height + 4};
@@ -122,7 +136,7 @@ static void draw_messages(struct pel_state *state) {
         draw_line(state, 1, 0xFF8080FF, state->status.sentence);
     if (state->status.busy && state->status.running_ms > long_ms) {
         const struct pel_pane_window *window = &state->windows[0];
-        double left = pel_panels_width(state), width = window->pixels[0] - left;
+        double left = column_width(state), width = window->pixels[0] - left;
         const double low[2] = {left, window->pixels[1] - 4.0};
         const double high[2] = {left + width * state->status.finished, window->pixels[1]};
         pel_widget_box(low, high, 0xFFE0A040, true);
@@ -130,15 +144,15 @@ static void draw_messages(struct pel_state *state) {
     pel_widget_draw_over(false);
 }
 
-void pel_panels_draw(struct pel_state *state, double seconds) {
-    pel_widget_begin(state->windows[0].pixels, seconds);
-    if (state->panels)
+void pel_panels_draw(struct pel_state *state, int window, double seconds) {
+    pel_widget_begin(window, state->windows[window].pixels, seconds);
+    if (window == 0 && state->panels)
         draw_column(state);
-    if (state->help)
+    if (window == 0 && state->help)
         draw_help(state);
     if (state->readouts)
-        pel_panel_overlay(state);
-    if (state->readouts || state->panels)
+        pel_panel_overlay(state, window);
+    if (window == 0 && (state->readouts || state->panels))
         draw_messages(state);
     pel_widget_end();
 }

@@ -9,17 +9,19 @@
 // What the panels take of the window's width, in screen coordinates.
 enum { PEL_PANELS_COLUMN = 330 };
 
-// For the first window, whose OpenGL context is current.
+// For all windows.
 bool pel_panels_start(struct pel_state *state);
-void pel_panels_stop(void);
+void pel_panels_stop(struct pel_state *state);
 
-// What the panels on the left take of the window's width, in pixels.
+// What the panels take of the first window's width, in pixels: on a wall nothing, as they lie over
+// the picture.
 int pel_panels_width(const struct pel_state *state);
 
 // An event of the first window; true when the panels keep it.
 bool pel_panels_take_event(const struct pel_event *event);
 
-// Draws everything into the first window. `seconds` went by since the last time.
-void pel_panels_draw(struct pel_state *state, double seconds);
+// Draws everything of one window, whose OpenGL context is current. `seconds` went by since the last
+// time.
+void pel_panels_draw(struct pel_state *state, int window, double seconds);
 
 #endif

@@ -6,7 +6,8 @@ bool pel_panels_start(struct pel_state *state) {
     return true;
 }
 
-void pel_panels_stop(void) {
+void pel_panels_stop(struct pel_state *state) {
+    (void)state;
 }
 
 int pel_panels_width(const struct pel_state *state) {
@@ -19,6 +20,6 @@ bool pel_panels_take_event(const struct pel_event *event) {
     return false;
 }
 
-void pel_panels_draw(struct pel_state *state, double seconds) {
-    (void)state, (void)seconds;
+void pel_panels_draw(struct pel_state *state, int window, double seconds) {
+    (void)state, (void)window, (void)seconds;
 }

@@ -13,6 +13,7 @@ struct picture {
 
 struct pel_present {
     GLuint program, nothing; // a vertex array without attributes
+    GLint part;              // where the program finds it
     GLuint buffers[2];       // used in turns, so that one can still be read while one is written
     int turn;
     struct picture pictures[PEL_PRESENT_PICTURES];
@@ -24,9 +25,10 @@ struct pel_present {
 static const char vertex_source[] =
     "#version 330 core\n"
     "out vec2 place;\n"
+    "uniform vec4 part;\n"
     "void main() {\n"
     "    vec2 corner = vec2(gl_VertexID == 1 ? 2 : 0, gl_VertexID == 2 ? 2 : 0);\n"
-    "    place = vec2(corner.x, 1 - corner.y);\n"
+    "    place = part.xy + part.zw * vec2(corner.x, 1 - corner.y);\n"
     "    gl_Position = vec4(2 * corner - 1, 0, 1);\n"
     "}\n";
 
@@ -64,6 +66,7 @@ static bool link_program(struct pel_present *present, char *sentence, size_t byt
     glGetProgramiv(present->program, GL_LINK_STATUS, &good);
     if (!good && !sentence[0])
         snprintf(sentence, bytes, "OpenGL does not link the presenting shader");
+    present->part = glGetUniformLocation(present->program, "part");
     return good;
 }
 
@@ -145,12 +148,14 @@ void pel_present_begin(struct pel_present *present, const int window_px[2]) {
     glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void pel_present_draw(struct pel_present *present, int slot, const struct pel_rectangle *place) {
+void pel_present_draw(struct pel_present *present, int slot, const double part[4],
+                      const struct pel_rectangle *place) {
     const struct picture *picture = &present->pictures[slot];
     if (!picture->texture)
         return;
     bool exact = picture->width == place->width && picture->height == place->height;
     glUseProgram(present->program);
+    glUniform4f(present->part, (float)part[0], (float)part[1], (float)part[2], (float)part[3]);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, picture->texture);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, exact ? GL_NEAREST : GL_LINEAR);

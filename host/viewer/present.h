@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { PEL_PRESENT_PICTURES = 32 };
+enum { PEL_PRESENT_PICTURES = 4 };
 
 // A part of the window, in pixels from its top left corner.
 struct pel_rectangle {
@@ -28,9 +28,10 @@ void pel_present_upload(struct pel_present *present, int slot, int width, int he
 // Clears the whole window of this size. What is drawn next goes into it.
 void pel_present_begin(struct pel_present *present, const int window_px[2]);
 
-// Draws a picture into a part of the window, stretched to it. A slot without a picture draws
-// nothing.
-void pel_present_draw(struct pel_present *present, int slot, const struct pel_rectangle *place);
+// Draws a picture, or the part of it that is given in shares (left and top edge, width and height),
+// into a part of the window, stretched to it. A slot without a picture draws nothing.
+void pel_present_draw(struct pel_present *present, int slot, const double part[4],
+                      const struct pel_rectangle *place);
 
 // Between these two, drawing goes into memory in place of the window, whether it can be seen or
 // not; the end gives 8-bit RGB, rows from the top, to be freed. False and NULL when there is no

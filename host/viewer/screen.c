@@ -6,11 +6,26 @@
 #include <string.h>
 
 #include "viewer/panels.h"
+#include "viewer/wall.h"
 
-bool pel_screen_open(struct pel_state *state, char *sentence, size_t bytes) {
+// ---- Windows -----------------------------------------------------------------------------------
+
+static bool open_window(struct pel_state *state, const struct pel_window_options *wanted,
+                        char *sentence, size_t bytes) {
+    struct pel_pane_window *window = &state->windows[state->window_count];
+    window->window = pel_window_create(wanted, &state->queue, sentence, bytes);
+    if (!window->window)
+        return false;
+    state->window_count++;
+    window->present = pel_present_create(sentence, bytes);
+    if (!window->present)
+        return false;
+    pel_window_pixels(window->window, window->pixels, &window->scale);
+    return true;
+}
+
+static bool open_single(struct pel_state *state, char *sentence, size_t bytes) {
     const struct pel_viewer_options *options = state->options;
-    // The panels stand beside a picture of the scene's size; a size that was asked for is the
-    // whole.
     const struct pel_render_settings *settings = &options->scene->render;
     struct pel_window_options wanted = {.title = "Pellucid", .monitor = options->full_screen};
     // The panels stand beside a picture of the scene's size; a size that was asked for is the
@@ -19,30 +34,99 @@ bool pel_screen_open(struct pel_state *state, char *sentence, size_t bytes) {
     wanted.place[3] = settings->height;
     if (options->size[0] > 0)
         memcpy(&wanted.place[2], options->size, sizeof options->size);
-    struct pel_pane_window *window = &state->windows[0];
-    window->window = pel_window_create(&wanted, &state->queue, sentence, bytes);
-    if (!window->window)
+    return open_window(state, &wanted, sentence, bytes);
+}
+
+static bool open_wall(struct pel_state *state, char *sentence, size_t bytes) {
+    const struct pel_viewer_options *options = state->options;
+    const struct pel_wall *wall = &options->scene->wall;
+    const struct pel_render_settings *settings = &options->scene->render;
+    state->wall_px[0] = options->size[0] > 0 ? options->size[0] : settings->width;
+    state->wall_px[1] = options->size[0] > 0 ? options->size[1] : settings->height;
+    // Panels hide what is behind them, so they come only when they are called.
+    state->panels = false;
+    for (int i = 0; i < wall->region_count; i++) {
+        struct pel_wall_part part = pel_wall_place(wall, i, state->wall_px);
+        struct pel_window_options wanted = {.title = "Pellucid",
+                                            .number = i,
+                                            .placed = true,
+                                            .monitor = wall->regions[i].monitor + 1,
+                                            .unadorned = true,
+                                            .follows = i > 0};
+        memcpy(wanted.place, part.region, sizeof part.region);
+        if (wanted.monitor > pel_window_monitor_count()) {
+            pel_state_say(state, "there is no monitor %d: region %d is a window",
+                          wall->regions[i].monitor, i);
+            wanted.monitor = 0;
+        }
+        if (!open_window(state, &wanted, sentence, bytes))
+            return false;
+    }
+    return true;
+}
+
+bool pel_screen_open(struct pel_state *state, char *sentence, size_t bytes) {
+    if (state->options->full_screen > pel_window_monitor_count()) {
+        snprintf(sentence, bytes, "there is no monitor %d, but %d of them",
+                 state->options->full_screen, pel_window_monitor_count());
         return false;
-    state->window_count = 1;
-    window->present = pel_present_create(sentence, bytes);
-    if (!window->present)
+    }
+    bool wall = state->options->scene->wall.region_count > 0;
+    if (!(wall ? open_wall(state, sentence, bytes) : open_single(state, sentence, bytes)))
         return false;
-    pel_window_pixels(window->window, window->pixels, &window->scale);
     state->with_panels = pel_panels_start(state);
+    if (wall && state->options->full_screen)
+        pel_screen_toggle_full_screen(state);
     return true;
 }
 
 void pel_screen_close(struct pel_state *state) {
-    if (state->with_panels) {
-        pel_window_draw_on(state->windows[0].window);
-        pel_panels_stop();
-    }
+    if (state->with_panels)
+        pel_panels_stop(state);
     for (int i = 0; i < state->window_count; i++) {
         pel_window_draw_on(state->windows[i].window);
         pel_present_destroy(state->windows[i].present);
         pel_window_destroy(state->windows[i].window);
     }
     state->window_count = 0;
+}
+
+void pel_screen_name(struct pel_state *state) {
+    const char *slash = strrchr(state->scene_path, '/');
+    const char *file = slash ? slash + 1 : state->scene_path;
+    char name[sizeof state->name];
+    snprintf(name, sizeof name, "%.255s%s - Pellucid", *file ? file : "new scene",
+             pel_history_is_saved(state->history) ? "" : "*");
+    if (strcmp(name, state->name) == 0)
+        return;
+    memcpy(state->name, name, sizeof name);
+    for (int i = 0; i < state->window_count; i++) {
+        char title[sizeof name + 32];
+        int length = snprintf(title, sizeof title, "%s", name);
+        if (state->window_count > 1)
+            snprintf(title + length, sizeof title - (size_t)length, " %d of %d", i + 1,
+                     state->window_count);
+        pel_window_name(state->windows[i].window, title);
+    }
+}
+
+void pel_screen_toggle_full_screen(struct pel_state *state) {
+    uint64_t taken = 0; // bits of monitors
+    for (int i = 0; i < state->window_count; i++) {
+        int monitor = pel_window_monitor(state->windows[i].window);
+        if (monitor > 0 && taken >> monitor % 64 & 1)
+            continue;
+        taken |= UINT64_C(1) << monitor % 64;
+        pel_window_toggle_full_screen(state->windows[i].window);
+    }
+}
+
+// ---- Layout ------------------------------------------------------------------------------------
+
+// A view that is all of its picture.
+static struct pel_screen_view make_view(struct pel_rectangle place) {
+    return (struct pel_screen_view){
+        .place = place, .whole = {place.width, place.height}, .part = {0, 0, 1, 1}};
 }
 
 // The picture gives three quarters of its place to slices: axial and coronal above, sagittal at its
@@ -58,69 +142,146 @@ static void make_room_for_slices(struct pel_state *state) {
     if (left < 2 || top < 2)
         return;
     for (int i = 0; i < 4; i++)
-        state->views[i] = (struct pel_screen_view){.place = places[i]};
+        state->views[i] = make_view(places[i]);
     state->view_count = 4;
     state->slices_old = true;
 }
 
-bool pel_screen_layout(struct pel_state *state) {
-    struct pel_screen_view views[PEL_WORKER_VIEWS];
-    memcpy(views, state->views, sizeof views);
-    struct pel_pane_window *window = &state->windows[0];
-    pel_window_pixels(window->window, window->pixels, &window->scale);
-    state->view_count = state->picture_count = 1;
-    int left = pel_panels_width(state);
-    state->views[0] =
-        (struct pel_screen_view){.place = {left, 0, window->pixels[0] - left, window->pixels[1]}};
-    if (state->compare.mode == PEL_COMPARE_SLICES)
-        make_room_for_slices(state);
-    // A window that is minimised has no pixels.
-    if (state->views[0].place.width < 1 || state->views[0].place.height < 1)
-        memcpy(state->views, views, sizeof views);
-    return memcmp(views, state->views, sizeof views) != 0;
+static void lay_out_wall(struct pel_state *state) {
+    state->view_count = state->picture_count = state->window_count;
+    for (int i = 0; i < state->window_count; i++) {
+        const int *pixels = state->windows[i].pixels;
+        struct pel_wall_part part =
+            pel_wall_fit(&state->options->scene->wall, i, state->wall_px, pixels);
+        state->views[i] = (struct pel_screen_view){
+            .window = i,
+            .place = {0, 0, pixels[0], pixels[1]},
+            .whole = {part.whole[0], part.whole[1]},
+            .offset = {part.region[0], part.region[1]},
+            .part = {0, 0, 1, 1},
+        };
+    }
 }
 
-void pel_screen_fit_scene(const struct pel_state *state, int view, struct pel_scene *scene) {
-    const struct pel_rectangle *place = &state->views[view].place;
+static void lay_out_single(struct pel_state *state) {
+    const int *pixels = state->windows[0].pixels;
+    int left = pel_panels_width(state);
+    state->view_count = state->picture_count = 1;
+    state->views[0] = make_view((struct pel_rectangle){left, 0, pixels[0] - left, pixels[1]});
+    if (state->compare.mode == PEL_COMPARE_SLICES)
+        make_room_for_slices(state);
+}
+
+bool pel_screen_layout(struct pel_state *state) {
+    struct pel_screen_view views[PEL_WALL_MAX];
+    memcpy(views, state->views, sizeof views);
+    int view_count = state->view_count;
+    for (int i = 0; i < state->window_count; i++) {
+        struct pel_pane_window *window = &state->windows[i];
+        pel_window_pixels(window->window, window->pixels, &window->scale);
+    }
+    if (state->wall_px[0] > 0)
+        lay_out_wall(state);
+    else
+        lay_out_single(state);
+    // A window that is minimised has no pixels.
+    for (int i = 0; i < state->view_count; i++)
+        if (state->views[i].place.width < 1 || state->views[i].place.height < 1)
+            state->views[i] = views[i];
+    bool moved = view_count != state->view_count;
+    for (int i = 0; i < state->view_count; i++) {
+        const struct pel_screen_view *now = &state->views[i], *before = &views[i];
+        moved = moved || memcmp(&now->place, &before->place, sizeof now->place) != 0 ||
+                memcmp(now->whole, before->whole, sizeof now->whole) != 0 ||
+                memcmp(now->offset, before->offset, sizeof now->offset) != 0;
+    }
+    return moved;
+}
+
+// ---- Scenes ------------------------------------------------------------------------------------
+
+// Both eyes together fill the picture; squeezed ones need an even size.
+static void fit_eyes(struct pel_scene *scene) {
     struct pel_render_settings *settings = &scene->render;
-    settings->width = place->width;
-    settings->height = place->height;
-    // Both eyes together fill the place; squeezed ones need an even size.
+    int axis = scene->stereo.kind == PEL_STEREO_TOP_BOTTOM ||
+               scene->stereo.kind == PEL_STEREO_TOP_BOTTOM_HALF;
+    int *size = axis == 0 ? &settings->width : &settings->height;
+    int *from = &settings->region[axis], *part = &settings->region[2 + axis];
     switch (scene->stereo.kind) {
     case PEL_STEREO_SIDE_BY_SIDE:
     case PEL_STEREO_TWO_FILES:
-        settings->width = place->width > 1 ? place->width / 2 : 1;
-        break;
     case PEL_STEREO_TOP_BOTTOM:
-        settings->height = place->height > 1 ? place->height / 2 : 1;
+        *size = *size > 1 ? *size / 2 : 1;
+        *from /= 2;
+        *part /= 2;
         break;
     case PEL_STEREO_SIDE_BY_SIDE_HALF:
-        settings->width = place->width > 1 ? place->width & ~1 : 2;
-        break;
     case PEL_STEREO_TOP_BOTTOM_HALF:
-        settings->height = place->height > 1 ? place->height & ~1 : 2;
+        if (*part > 0)
+            *part = *part > 1 ? *part & ~1 : *part;
+        else
+            *size = *size > 1 ? *size & ~1 : 2;
         break;
     default:
         break;
     }
 }
 
-void pel_screen_upload(struct pel_state *state, int view, int width, int height,
-                       const uint8_t *rgba) {
-    const struct pel_pane_window *window = &state->windows[state->views[view].window];
+void pel_screen_fit_whole(const struct pel_state *state, struct pel_scene *scene) {
+    struct pel_render_settings *settings = &scene->render;
+    settings->width = state->views[0].whole[0];
+    settings->height = state->views[0].whole[1];
+    memset(settings->region, 0, sizeof settings->region);
+    fit_eyes(scene);
+}
+
+void pel_screen_fit_scene(const struct pel_state *state, int view, struct pel_scene *scene) {
+    const struct pel_screen_view *shown = &state->views[view];
+    struct pel_render_settings *settings = &scene->render;
+    settings->width = shown->whole[0];
+    settings->height = shown->whole[1];
+    const int region[4] = {shown->offset[0], shown->offset[1], shown->place.width,
+                           shown->place.height};
+    bool all = region[2] == settings->width && region[3] == settings->height;
+    memset(settings->region, 0, sizeof settings->region);
+    if (!all)
+        memcpy(settings->region, region, sizeof region);
+    fit_eyes(scene);
+}
+
+const char *pel_screen_device(const struct pel_state *state, int number,
+                              const struct pel_scene *scene) {
+    int view = number % state->picture_count;
+    return view < scene->wall.region_count ? scene->wall.regions[view].device : "";
+}
+
+// ---- Drawing -----------------------------------------------------------------------------------
+
+// Where the window keeps the view's pixels.
+static int slot_of(const struct pel_state *state, int view) {
+    return state->wall_px[0] > 0 ? 0 : view;
+}
+
+void pel_screen_upload(struct pel_state *state, int view, const struct pel_pixels *pixels) {
+    struct pel_screen_view *shown = &state->views[view];
+    const struct pel_pane_window *window = &state->windows[shown->window];
+    memcpy(shown->part, pixels->part, sizeof shown->part);
     pel_window_draw_on(window->window);
-    pel_present_upload(window->present, view, width, height, rgba);
+    pel_present_upload(window->present, slot_of(state, view), pixels->width, pixels->height,
+                       pixels->rgba);
 }
 
 // Draws one window into whatever drawing goes to; `seconds` after the last time.
 static void draw_window(struct pel_state *state, int number, double seconds) {
     const struct pel_pane_window *window = &state->windows[number];
     pel_present_begin(window->present, window->pixels);
-    for (int i = 0; i < state->view_count; i++)
-        if (state->views[i].window == number)
-            pel_present_draw(window->present, i, &state->views[i].place);
-    if (number == 0 && state->with_panels)
-        pel_panels_draw(state, seconds);
+    for (int i = 0; i < state->view_count; i++) {
+        const struct pel_screen_view *view = &state->views[i];
+        if (view->window == number)
+            pel_present_draw(window->present, slot_of(state, i), view->part, &view->place);
+    }
+    if (state->with_panels)
+        pel_panels_draw(state, number, seconds);
 }
 
 void pel_screen_draw(struct pel_state *state) {
@@ -134,29 +295,25 @@ void pel_screen_draw(struct pel_state *state) {
         pel_window_show(state->windows[i].window);
 }
 
-static void copy_pixels(struct pel_image *image, int left, const int size[2], const uint8_t *rgb) {
-    for (int y = 0; y < size[1]; y++)
-        for (int x = 0; x < size[0]; x++) {
-            float *to = &image->rgba[4 * ((size_t)y * (size_t)image->width + (size_t)(left + x))];
+static void copy_pixels(struct pel_image *image, const int at[2], const int size[2],
+                        const uint8_t *rgb) {
+    for (int y = 0; y < size[1] && at[1] + y < image->height; y++)
+        for (int x = 0; x < size[0] && at[0] + x < image->width; x++) {
+            size_t to_pixel = (size_t)(at[1] + y) * (size_t)image->width + (size_t)(at[0] + x);
             const uint8_t *from = &rgb[3 * ((size_t)y * (size_t)size[0] + (size_t)x)];
             for (int c = 0; c < 3; c++)
-                to[c] = (float)from[c] / 255;
-            to[3] = 1;
+                image->rgba[4 * to_pixel + (size_t)c] = (float)from[c] / 255;
         }
 }
 
 bool pel_screen_save(struct pel_state *state, const char *path) {
-    int size[2] = {0, 1};
-    for (int i = 0; i < state->window_count; i++) {
-        size[0] += state->windows[i].pixels[0];
-        if (state->windows[i].pixels[1] > size[1])
-            size[1] = state->windows[i].pixels[1];
-    }
+    const int *size = state->wall_px[0] > 0 ? state->views[0].whole : state->windows[0].pixels;
     struct pel_image *image = pel_image_create(size[0], size[1]);
     if (!image)
         return false;
-    bool good = true;
-    for (int i = 0, left = 0; i < state->window_count; left += state->windows[i++].pixels[0]) {
+    for (size_t i = 0; i < (size_t)size[0] * (size_t)size[1]; i++)
+        memcpy(&image->rgba[4 * i], (float[]){0, 0, 0, 1}, 4 * sizeof *image->rgba);
+    for (int i = 0; i < state->window_count; i++) {
         const struct pel_pane_window *window = &state->windows[i];
         pel_window_draw_on(window->window);
         if (!pel_present_catch(window->present, window->pixels))
@@ -164,10 +321,11 @@ bool pel_screen_save(struct pel_state *state, const char *path) {
         draw_window(state, i, 0);
         uint8_t *rgb = pel_present_caught(window->present);
         if (rgb)
-            copy_pixels(image, left, window->pixels, rgb);
+            copy_pixels(image, state->wall_px[0] > 0 ? state->views[i].offset : (int[]){0, 0},
+                        window->pixels, rgb);
         free(rgb);
     }
-    good = pel_image_save(image, path, NULL);
+    bool good = pel_image_save(image, path, NULL);
     pel_image_destroy(image);
     return good;
 }

@@ -4,6 +4,7 @@
 // need no rendering. View 0 is the picture; 1 to 3 are slices, which the host renders.
 #include "viewer/show.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,68 +17,87 @@ static bool compares(const struct pel_state *state) {
 }
 
 int pel_show_scene_count(const struct pel_state *state) {
-    return compares(state) ? 2 : state->picture_count;
+    return state->picture_count * (compares(state) ? 2 : 1);
 }
 
+// All windows show one side, and then the other.
 struct pel_scene *pel_show_scene(const struct pel_state *state, int number) {
-    struct pel_scene *scene;
-    if (compares(state)) {
-        int last = state->scene->instance_count - 1;
-        int side = state->sides[number] < last ? state->sides[number] : last;
-        scene = pel_compare_side(state->scene, side);
-        number = 0;
-    } else {
-        scene = pel_scene_copy(state->scene);
-    }
+    int last = state->scene->instance_count - 1, side = number / state->picture_count;
+    int instance = state->sides[side] < last ? state->sides[side] : last;
+    const struct pel_scene *shown = pel_film_shown(state);
+    struct pel_scene *scene =
+        compares(state) ? pel_compare_side(shown, instance) : pel_scene_copy(shown);
     if (scene)
-        pel_screen_fit_scene(state, number, scene);
+        pel_screen_fit_scene(state, number % state->picture_count, scene);
     return scene;
 }
 
 // ---- Comparisons -------------------------------------------------------------------------------
 
-static void show_comparison(struct pel_state *state) {
-    const struct pel_worker_picture *kept = state->kept;
-    const struct pel_worker_pixels *a = &kept->views[0], *b = &kept->views[1];
-    if (kept->view_count < 2 || a->width != b->width || a->height != b->height)
-        return;
-    // Squares have the size they were given on the screen, however many pixels the picture has.
+// Squares and the line lie in the whole picture, and have the size they were given on the screen,
+// however many pixels the pictures have.
+static struct pel_compare compare_in_view(const struct pel_state *state,
+                                          const struct pel_screen_view *view,
+                                          const struct pel_pixels *pixels) {
     struct pel_compare compare = state->compare;
+    const int shown[2] = {view->place.width, view->place.height};
+    const int size[2] = {pixels->width, pixels->height};
+    for (int axis = 0; axis < 2; axis++) {
+        double scale = pixels->part[2 + axis] * size[axis] / shown[axis];
+        compare.whole[axis] = (int)lround(view->whole[axis] * scale);
+        compare.offset[axis] =
+            (int)lround(view->offset[axis] * scale - pixels->part[axis] * size[axis]);
+    }
     int cell_px = compare.cell_px > 0 ? compare.cell_px : 48;
-    compare.cell_px = cell_px / kept->quality.divisor > 1 ? cell_px / kept->quality.divisor : 1;
-    uint8_t *rgba = malloc((size_t)a->width * (size_t)a->height * 4);
-    if (!rgba)
-        return;
-    pel_compare_pixels(&compare, a->width, a->height, a->rgba, b->rgba, state->now_ms / 1e3, rgba);
-    pel_screen_upload(state, 0, a->width, a->height, rgba);
-    free(rgba);
+    int divisor = state->kept->quality.divisor;
+    compare.cell_px = cell_px / divisor > 1 ? cell_px / divisor : 1;
+    return compare;
 }
 
+static void show_comparison(struct pel_state *state, int view) {
+    const struct pel_picture *kept = state->kept;
+    const struct pel_pixels *a = &kept->views[view], *b = &kept->views[state->picture_count + view];
+    if (a->width != b->width || a->height != b->height)
+        return;
+    struct pel_compare compare = compare_in_view(state, &state->views[view], a);
+    struct pel_pixels mixed = *a;
+    mixed.rgba = malloc((size_t)a->width * (size_t)a->height * 4);
+    if (!mixed.rgba)
+        return;
+    pel_compare_pixels(&compare, a->width, a->height, a->rgba, b->rgba, state->now_ms / 1e3,
+                       mixed.rgba);
+    pel_screen_upload(state, view, &mixed);
+    free(mixed.rgba);
+}
+
+// A picture that was asked for before the windows or the comparison changed has other views.
 static void show_kept(struct pel_state *state) {
-    if (!state->kept)
+    if (!state->kept || state->kept->view_count != pel_show_scene_count(state))
         return;
-    if (compares(state)) {
-        show_comparison(state);
-        return;
-    }
-    for (int i = 0; i < state->kept->view_count && i < state->picture_count; i++) {
-        const struct pel_worker_pixels *pixels = &state->kept->views[i];
-        pel_screen_upload(state, i, pixels->width, pixels->height, pixels->rgba);
+    for (int i = 0; i < state->picture_count; i++) {
+        if (compares(state))
+            show_comparison(state, i);
+        else
+            pel_screen_upload(state, i, &state->kept->views[i]);
     }
 }
 
-void pel_show_take(struct pel_state *state, struct pel_worker_picture *picture) {
-    pel_worker_picture_destroy(state->kept);
+void pel_show_take(struct pel_state *state, struct pel_picture *picture) {
+    pel_picture_destroy(state->kept);
     state->kept = picture;
     show_kept(state);
 }
 
 void pel_show_finish(struct pel_state *state) {
-    pel_worker_picture_destroy(state->kept);
+    pel_picture_destroy(state->kept);
     state->kept = NULL;
 }
 
 // ---- Slices ------------------------------------------------------------------------------------
+
+bool pel_show_can(const struct pel_state *state, enum pel_compare_mode mode) {
+    return mode != PEL_COMPARE_SLICES || state->wall_px[0] == 0;
+}
 
 bool pel_show_slice(const struct pel_state *state, int view, struct pel_slice *slice) {
     struct pel_bounds bounds;
@@ -98,12 +118,13 @@ static void show_slices(struct pel_state *state) {
         struct pel_slice slice;
         if (!pel_show_slice(state, view, &slice))
             continue;
-        uint8_t *rgba = malloc((size_t)slice.width * (size_t)slice.height * 4);
-        if (!rgba)
+        struct pel_pixels pixels = {slice.width, slice.height, NULL, {0, 0, 1, 1}};
+        pixels.rgba = malloc((size_t)slice.width * (size_t)slice.height * 4);
+        if (!pixels.rgba)
             return;
-        pel_slice_render(&slice, state->scene, -1, rgba);
-        pel_screen_upload(state, view, slice.width, slice.height, rgba);
-        free(rgba);
+        pel_slice_render(&slice, state->scene, -1, pixels.rgba);
+        pel_screen_upload(state, view, &pixels);
+        free(pixels.rgba);
     }
     state->redraw = true;
 }

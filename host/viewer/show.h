@@ -11,11 +11,14 @@ int pel_show_scene_count(const struct pel_state *state);
 struct pel_scene *pel_show_scene(const struct pel_state *state, int number);
 
 // Takes a picture of all of them over, and hands what is shown to the windows.
-void pel_show_take(struct pel_state *state, struct pel_worker_picture *picture);
+void pel_show_take(struct pel_state *state, struct pel_picture *picture);
 
 // Time went on, or what is compared changed: brings the windows up to date.
 void pel_show_update(struct pel_state *state);
 void pel_show_finish(struct pel_state *state);
+
+// Whether there is room for a way to compare: a wall has none for slices beside the picture.
+bool pel_show_can(const struct pel_state *state, enum pel_compare_mode mode);
 
 // Another way to compare, or other volumes.
 void pel_show_set_mode(struct pel_state *state, enum pel_compare_mode mode);

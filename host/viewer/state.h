@@ -3,7 +3,9 @@
 #ifndef PEL_VIEWER_STATE_H
 #define PEL_VIEWER_STATE_H
 
+#include "viewer/clip_handles.h"
 #include "viewer/compare.h"
+#include "viewer/film.h"
 #include "viewer/handles.h"
 #include "viewer/history.h"
 #include "viewer/navigation.h"
@@ -24,10 +26,13 @@ struct pel_pane_window {
     double scale; // how much larger than usual letters are
 };
 
-// One picture in a window.
+// One picture in a window, or the part of one that a window of a wall shows.
 struct pel_screen_view {
     int window;
     struct pel_rectangle place;
+    int whole[2];   // pixels of the picture
+    int offset[2];  // where in it the window's part begins; 0 without a wall
+    double part[4]; // of the pixels that came last, what is shown of them: see pel_pixels
 };
 
 // What the hand is doing in the picture.
@@ -38,6 +43,8 @@ enum pel_drag {
     PEL_DRAG_ZOOM,
     PEL_DRAG_TILT,
     PEL_DRAG_HANDLE,
+    PEL_DRAG_CLIP,   // what cuts, by its gizmo
+    PEL_DRAG_FACE,   // a face of a box that cuts
     PEL_DRAG_CROSS,  // the cross-hair, in a slice
     PEL_DRAG_SPLIT,  // the line between two volumes
     PEL_DRAG_LEVELS, // window and level of the selected volume
@@ -48,17 +55,21 @@ struct pel_state {
     struct pel_scene *scene;
     struct pel_history *history;
     struct pel_navigation navigation; // its camera is the scene's
+    char name[512];                   // of the windows
     char scene_path[4096];            // where the scene is saved; "" = not yet
     char pose_path[1024];             // of the transform that the panel loads and saves
     int selected;                     // instance
     int preset;                       // the last one that a key chose
 
     // The hand.
-    uint32_t held;      // bits of the actions whose keys are down
-    enum pel_drag drag; //
-    int drag_view;      // where it began
-    double drag_px[2];  // where the pointer was last, from the view's corner
-    bool handles;       // are shown
+    uint32_t held;               // bits of the actions whose keys are down
+    enum pel_drag drag;          //
+    int drag_view;               // where it began
+    double drag_px[2];           // where the pointer was last, from the view's corner
+    bool handles;                // of the selected volume are shown
+    int clip;                    // whose handles are shown, counted from 1; 0 = none
+    int face;                    // of a box that is dragged
+    struct pel_clip clip_before; // when the drag began
     struct pel_handle_drag handle_drag;
     struct pel_transfer *levels_before; // owned; the transfer function when a drag of levels began
     double drag_from_px[2];             // where the drag began
@@ -69,9 +80,11 @@ struct pel_state {
     int pointer_window;   //
 
     struct pel_event_queue queue;
-    struct pel_pane_window windows[PEL_WORKER_VIEWS];
+    struct pel_pane_window windows[PEL_WALL_MAX];
     int window_count;
     struct pel_worker *worker;
+
+    struct pel_film film; // the scene's animation
 
     // Comparing.
     struct pel_compare compare;
@@ -83,21 +96,26 @@ struct pel_state {
     bool slices_windowed; // values as grey
     bool slices_old;      // slices have to be rendered anew
 
+    // The values of the selected volume's mask, as they are typed.
+    char mask_text[128];
+    struct pel_mask mask_typed; // the mask that they were written from
+
     // The plot of the transfer function.
     int opacity_point, colour_point; // taken last
     bool plot_held;                  // something is dragged on it
     double plot_low, plot_high;      // the values it shows
 
     // What is shown, and whether it is what should be.
-    struct pel_screen_view views[PEL_WORKER_VIEWS];
+    struct pel_screen_view views[PEL_WALL_MAX];
     int view_count;
-    int picture_count;      // of the views, those that the worker renders; slices follow them
-    uint64_t version, sent; // counts the changes; the last one that was given to the worker
-    bool sent_moving;       // as one of many
-    double changed_ms;      // when the last change was
-    bool quick;             // only a quick picture of `sent` was asked for
-    struct pel_worker_picture *kept; // owned; the newest one
-    struct pel_worker_picture shown; // what is on the screen, without its pixels
+    int picture_count;        // of the views, those that the worker renders; slices follow them
+    int wall_px[2];           // of the whole wall as it was opened; 0 without one
+    uint64_t version, sent;   // counts the changes; the last one that was given to the worker
+    bool sent_moving;         // as one of many
+    double changed_ms;        // when the last change was
+    bool quick;               // only a quick picture of `sent` was asked for
+    struct pel_picture *kept; // owned; the newest one
+    struct pel_picture shown; // what is on the screen, without its pixels
     struct pel_worker_status status;
     int saved_count;             // pictures that the worker saved, and of which the user was told
     int save_size[2];            // of the next one; 0 = as the window's
@@ -131,11 +149,15 @@ void pel_state_move_camera(struct pel_state *state);
 // Takes another scene in place of the present one, which is destroyed.
 void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene);
 
-// The view of the camera as one of the pictures shows it; false when there is none.
+// The view of the camera as the picture shows it that a view is, or is a part of; false when there
+// is none.
 bool pel_state_view(const struct pel_state *state, int number, struct pel_view *view);
 
-// The gizmo of the selected volume in the first picture; false when it is not shown.
+// The gizmo of the selected volume in the picture, whole; false when it is not shown.
 bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo);
+
+// The gizmo of the clip whose handles are shown; false when there is none.
+bool pel_state_clip_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo);
 
 // Width over height of the picture that the camera is for.
 double pel_state_aspect(const struct pel_state *state);

@@ -38,7 +38,7 @@ static double target_ms(const struct pel_state *state) {
 
 // Gives the worker the scene as it is now, once for each view.
 static void send(struct pel_state *state, bool moving) {
-    struct pel_worker_request request = {
+    struct pel_request request = {
         .id = state->version, .moving = moving, .target_ms = target_ms(state)};
     int count = pel_show_scene_count(state);
     for (int i = 0; i < count; i++) {
@@ -47,13 +47,13 @@ static void send(struct pel_state *state, bool moving) {
             pel_state_say(state, "%s", pel_error_message());
             break;
         }
+        request.devices[i] = pel_screen_device(state, i, request.scenes[i]);
         request.view_count++;
     }
     if (request.view_count == count)
         pel_worker_submit(state->worker, &request);
     else
-        for (int i = 0; i < request.view_count; i++)
-            pel_scene_destroy(request.scenes[i]);
+        pel_request_finish(&request);
     state->sent = state->version;
     state->sent_moving = moving;
 }
@@ -68,7 +68,7 @@ static void ask_for_picture(struct pel_state *state) {
 }
 
 static void take_picture(struct pel_state *state) {
-    struct pel_worker_picture *picture = pel_worker_take(state->worker);
+    struct pel_picture *picture = pel_worker_take(state->worker);
     if (!picture)
         return;
     state->shown = *picture;
@@ -232,6 +232,7 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
         ask_for_picture(state);
         take_picture(state);
         pel_show_update(state);
+        pel_screen_name(state);
         bool was_busy = state->status.busy;
         ask_worker(state);
         if (state->redraw || was_busy || state->status.busy)
@@ -297,6 +298,7 @@ enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *se
         code = loop(state, sentence, bytes);
     pel_worker_destroy(state->worker);
     pel_show_finish(state);
+    pel_scene_destroy(state->film.scene);
     pel_screen_close(state);
     pel_window_stop();
     pel_event_finish(&state->queue);

@@ -18,7 +18,7 @@ struct pel_viewer_options {
     const char *scene_path;  // where the scene came from and is saved to; NULL = from volumes
     struct pel_renderer_options renderer;
     int size[2];            // of the window in screen coordinates; 0 = as the scene's picture
-    bool full_screen;       //
+    int full_screen;        // on this monitor, counted from 1; 0 = in a window
     bool bare;              // begins without panels and read-outs
     const char *script;     // events to replay; NULL = none
     const char *screenshot; // the window's picture goes there at the end; NULL = nowhere

@@ -2,11 +2,16 @@
 // knows it. Events come from our own queue, so that scripts can work on panels as hands do.
 #include "viewer/widget.h"
 
+#include "pellucid.h"
+
 #include <imgui.h>
 
 #include <backends/imgui_impl_opengl3.h>
 
 namespace {
+
+// What Dear ImGui knows of each window.
+ImGuiContext *contexts[PEL_WALL_MAX];
 
 // Which widgets' drawings go where.
 bool drawing_over = false;
@@ -30,33 +35,38 @@ void style(float scale) {
     style.ScaleAllSizes(scale);
 }
 
-void map_keys(ImGuiIO &io) {
-    io.KeyMap[ImGuiKey_Tab] = PEL_KEY_TAB;
-    io.KeyMap[ImGuiKey_LeftArrow] = PEL_KEY_LEFT;
-    io.KeyMap[ImGuiKey_RightArrow] = PEL_KEY_RIGHT;
-    io.KeyMap[ImGuiKey_UpArrow] = PEL_KEY_UP;
-    io.KeyMap[ImGuiKey_DownArrow] = PEL_KEY_DOWN;
-    io.KeyMap[ImGuiKey_PageUp] = PEL_KEY_PAGE_UP;
-    io.KeyMap[ImGuiKey_PageDown] = PEL_KEY_PAGE_DOWN;
-    io.KeyMap[ImGuiKey_Home] = PEL_KEY_HOME;
-    io.KeyMap[ImGuiKey_End] = PEL_KEY_END;
-    io.KeyMap[ImGuiKey_Delete] = PEL_KEY_DELETE;
-    io.KeyMap[ImGuiKey_Backspace] = PEL_KEY_BACKSPACE;
-    io.KeyMap[ImGuiKey_Enter] = PEL_KEY_ENTER;
-    io.KeyMap[ImGuiKey_Escape] = PEL_KEY_ESCAPE;
-    io.KeyMap[ImGuiKey_Space] = ' ';
-    io.KeyMap[ImGuiKey_A] = 'a';
-    io.KeyMap[ImGuiKey_C] = 'c';
-    io.KeyMap[ImGuiKey_V] = 'v';
-    io.KeyMap[ImGuiKey_X] = 'x';
-    io.KeyMap[ImGuiKey_Y] = 'y';
-    io.KeyMap[ImGuiKey_Z] = 'z';
-}
+// The keys that text fields know.
+const struct {
+    ImGuiKey theirs;
+    int ours;
+} keys[] = {
+    {ImGuiKey_Tab, PEL_KEY_TAB},
+    {ImGuiKey_LeftArrow, PEL_KEY_LEFT},
+    {ImGuiKey_RightArrow, PEL_KEY_RIGHT},
+    {ImGuiKey_UpArrow, PEL_KEY_UP},
+    {ImGuiKey_DownArrow, PEL_KEY_DOWN},
+    {ImGuiKey_PageUp, PEL_KEY_PAGE_UP},
+    {ImGuiKey_PageDown, PEL_KEY_PAGE_DOWN},
+    {ImGuiKey_Home, PEL_KEY_HOME},
+    {ImGuiKey_End, PEL_KEY_END},
+    {ImGuiKey_Delete, PEL_KEY_DELETE},
+    {ImGuiKey_Backspace, PEL_KEY_BACKSPACE},
+    {ImGuiKey_Enter, PEL_KEY_ENTER},
+    {ImGuiKey_Escape, PEL_KEY_ESCAPE},
+    {ImGuiKey_Space, ' '},
+    {ImGuiKey_A, 'a'},
+    {ImGuiKey_C, 'c'},
+    {ImGuiKey_V, 'v'},
+    {ImGuiKey_X, 'x'},
+    {ImGuiKey_Y, 'y'},
+    {ImGuiKey_Z, 'z'},
+};
 
 } // namespace
 
-bool pel_widget_start(double scale) {
-    ImGui::CreateContext();
+bool pel_widget_start(int window, double scale) {
+    contexts[window] = ImGui::CreateContext();
+    ImGui::SetCurrentContext(contexts[window]);
     ImGuiIO &io = ImGui::GetIO();
     // Where windows were is not kept in a file.
     io.IniFilename = nullptr;
@@ -66,16 +76,22 @@ bool pel_widget_start(double scale) {
     // Until the pointer is seen it is nowhere.
     io.MousePos = ImVec2(-1e6f, -1e6f);
     style(static_cast<float>(scale));
-    map_keys(io);
+    for (const auto &key : keys)
+        io.KeyMap[key.theirs] = key.ours;
     return ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
-void pel_widget_stop(void) {
+void pel_widget_stop(int window) {
+    if (!contexts[window])
+        return;
+    ImGui::SetCurrentContext(contexts[window]);
     ImGui_ImplOpenGL3_Shutdown();
-    ImGui::DestroyContext();
+    ImGui::DestroyContext(contexts[window]);
+    contexts[window] = nullptr;
 }
 
 bool pel_widget_take_event(const struct pel_event *event) {
+    ImGui::SetCurrentContext(contexts[event->window]);
     ImGuiIO &io = ImGui::GetIO();
     switch (event->kind) {
     case PEL_EVENT_POINTER:
@@ -108,7 +124,8 @@ bool pel_widget_take_event(const struct pel_event *event) {
     }
 }
 
-void pel_widget_begin(const int window_px[2], double seconds) {
+void pel_widget_begin(int window, const int window_px[2], double seconds) {
+    ImGui::SetCurrentContext(contexts[window]);
     ImGuiIO &io = ImGui::GetIO();
     io.DisplaySize = ImVec2(static_cast<float>(window_px[0]), static_cast<float>(window_px[1]));
     io.DeltaTime = seconds > 1e-4 ? static_cast<float>(seconds) : 1e-4f;

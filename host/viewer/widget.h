@@ -13,15 +13,15 @@
 extern "C" {
 #endif
 
-// `scale`: how much larger than usual letters are.
-bool pel_widget_start(double scale);
-void pel_widget_stop(void);
+// For a window, whose OpenGL context is current. `scale`: how much larger than usual letters are.
+bool pel_widget_start(int window, double scale);
+void pel_widget_stop(int window);
 
-// An event, which the panels take for themselves when they want it: true.
+// An event of a window, which its panels take for themselves when they want it: true.
 bool pel_widget_take_event(const struct pel_event *event);
 
-// A picture of all panels is made between these two; the second one draws it.
-void pel_widget_begin(const int window_px[2], double seconds);
+// A picture of all of a window's panels is made between these two; the second one draws it.
+void pel_widget_begin(int window, const int window_px[2], double seconds);
 void pel_widget_end(void);
 
 // ---- Places to put widgets ---------------------------------------------------------------------

@@ -12,7 +12,9 @@ struct pel_window {
     GLFWwindow *handle;
     struct pel_event_queue *queue;
     int number;
-    int place[4]; // before it went to full screen
+    int place[4];      // before it went to full screen
+    double pointer[2]; // where it was last seen, in screen coordinates
+    bool pointed;      // it was seen
 };
 
 // ---- Events ------------------------------------------------------------------------------------
@@ -76,7 +78,20 @@ static void place_pointer(GLFWwindow *handle, struct pel_event *event, double x,
     event->y = height > 0 ? y * height_px / height : y;
 }
 
+// A button went down where the pointer was then; asking would say where it is now, which, after a
+// long turn of the event loop, may be far away.
+static void place_button(GLFWwindow *handle, struct pel_event *event) {
+    struct pel_window *window = glfwGetWindowUserPointer(handle);
+    if (!window->pointed)
+        glfwGetCursorPos(handle, &window->pointer[0], &window->pointer[1]);
+    place_pointer(handle, event, window->pointer[0], window->pointer[1]);
+}
+
 static void on_pointer(GLFWwindow *handle, double x, double y) {
+    struct pel_window *window = glfwGetWindowUserPointer(handle);
+    window->pointer[0] = x;
+    window->pointer[1] = y;
+    window->pointed = true;
     struct pel_event event = {.kind = PEL_EVENT_POINTER};
     place_pointer(handle, &event, x, y);
     push(handle, event);
@@ -93,18 +108,14 @@ static void on_button(GLFWwindow *handle, int button, int action, int modifiers)
     else
         return;
     event.modifiers = translate_modifiers(modifiers);
-    double x, y;
-    glfwGetCursorPos(handle, &x, &y);
-    place_pointer(handle, &event, x, y);
+    place_button(handle, &event);
     push(handle, event);
 }
 
 static void on_wheel(GLFWwindow *handle, double right, double up) {
     (void)right;
     struct pel_event event = {.kind = PEL_EVENT_WHEEL, .wheel = up};
-    double x, y;
-    glfwGetCursorPos(handle, &x, &y);
-    place_pointer(handle, &event, x, y);
+    place_button(handle, &event);
     push(handle, event);
 }
 
@@ -250,12 +261,17 @@ void pel_window_show(struct pel_window *window) {
     glfwSwapBuffers(window->handle);
 }
 
-// The monitor that shares most area with the window.
-static GLFWmonitor *monitor_under(GLFWwindow *handle) {
-    int x, y, width, height, count;
-    glfwGetWindowPos(handle, &x, &y);
-    glfwGetWindowSize(handle, &width, &height);
-    GLFWmonitor **monitors = glfwGetMonitors(&count), *best = NULL;
+int pel_window_monitor_count(void) {
+    int count;
+    return glfwGetMonitors(&count) ? count : 0;
+}
+
+// What a window that was placed by GLFW covers, be it full screen or not.
+int pel_window_monitor(struct pel_window *window) {
+    int x, y, width, height, count, best = 0;
+    glfwGetWindowPos(window->handle, &x, &y);
+    glfwGetWindowSize(window->handle, &width, &height);
+    GLFWmonitor **monitors = glfwGetMonitors(&count);
     long most = -1;
     for (int i = 0; i < count; i++) {
         int left, top;
@@ -267,7 +283,7 @@ static GLFWmonitor *monitor_under(GLFWwindow *handle) {
         long area = wide > 0 && high > 0 ? (long)wide * high : 0;
         if (area > most) {
             most = area;
-            best = monitors[i];
+            best = i + 1;
         }
     }
     return best;
@@ -280,7 +296,7 @@ void pel_window_toggle_full_screen(struct pel_window *window) {
         glfwSetWindowMonitor(handle, NULL, place[0], place[1], place[2], place[3], GLFW_DONT_CARE);
         return;
     }
-    GLFWmonitor *monitor = monitor_under(handle);
+    GLFWmonitor *monitor = find_monitor(pel_window_monitor(window));
     if (!monitor)
         return;
     glfwGetWindowPos(handle, &place[0], &place[1]);

@@ -47,6 +47,10 @@ void pel_window_draw_on(struct pel_window *window);
 // Shows what was drawn.
 void pel_window_show(struct pel_window *window);
 
+// How many monitors there are, and which one has most of the window, counted from 1; 0 = none.
+int pel_window_monitor_count(void);
+int pel_window_monitor(struct pel_window *window);
+
 // Full screen on the monitor that has most of the window, and back.
 void pel_window_toggle_full_screen(struct pel_window *window);
 void pel_window_name(struct pel_window *window, const char *title);

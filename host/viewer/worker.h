@@ -1,6 +1,6 @@
 // worker.h - renders beside the event loop.
 //
-// One thread owns a renderer. It is given requests, of which only the newest counts, and hands
+// One thread owns the renderers. It is given requests, of which only the newest counts, and hands
 // back pictures, of which only the newest is kept. While things move, a request gets one picture,
 // as good as can be had in the time for a frame; at rest it is refined up to the scene's own
 // quality. A new request abandons a refinement at once, and a quick picture only when that takes
@@ -10,35 +10,9 @@
 #ifndef PEL_VIEWER_WORKER_H
 #define PEL_VIEWER_WORKER_H
 
-#include "viewer/pace.h"
+#include "viewer/request.h"
 
-enum { PEL_WORKER_VIEWS = 32, PEL_WORKER_SENTENCE = 512 };
-
-struct pel_worker_request {
-    uint64_t id;                                // comes back with the pictures
-    struct pel_scene *scenes[PEL_WORKER_VIEWS]; // one for each picture, of their own sizes
-    int view_count;
-    bool moving;      // more is to come: one quick picture, no refinement
-    double target_ms; // for the quick picture
-};
-
-// One view's pixels, as they go into an 8-bit file: RGBA, rows from the top. While things move they
-// may be fewer than asked for.
-struct pel_worker_pixels {
-    int width, height;
-    uint8_t *rgba; // owned by the picture
-};
-
-// All views of one request at one moment.
-struct pel_worker_picture {
-    uint64_t id;
-    struct pel_worker_pixels views[PEL_WORKER_VIEWS];
-    int view_count;
-    bool final; // of the scene's own quality
-    struct pel_quality quality;
-    double frame_ms;                         // from its begin until it could be taken
-    struct pel_render_statistics statistics; // of the last view
-};
+enum { PEL_WORKER_SENTENCE = 512 };
 
 // What the worker is doing.
 struct pel_worker_status {
@@ -56,15 +30,14 @@ struct pel_worker *pel_worker_create(const struct pel_renderer_options *options,
 void pel_worker_destroy(struct pel_worker *worker);
 
 // Takes the request's scenes.
-void pel_worker_submit(struct pel_worker *worker, const struct pel_worker_request *request);
+void pel_worker_submit(struct pel_worker *worker, const struct pel_request *request);
 
 // Saves a picture of the scene, which it takes, at its own size and quality, before it goes on with
 // the requests. False when memory ran out or too many wait already; the scene is then destroyed.
 bool pel_worker_save(struct pel_worker *worker, struct pel_scene *scene, const char *path);
 
 // The newest picture if there is one that was not taken yet, else NULL. The caller owns it.
-struct pel_worker_picture *pel_worker_take(struct pel_worker *worker);
-void pel_worker_picture_destroy(struct pel_worker_picture *picture);
+struct pel_picture *pel_worker_take(struct pel_worker *worker);
 
 void pel_worker_ask(struct pel_worker *worker, struct pel_worker_status *status);
 

@@ -6,10 +6,11 @@
 #include "base/error.h"
 #include "base/memory.h"
 
-struct pel_brick_settings pel_bricks_resolve(const struct pel_brick_settings *settings) {
+struct pel_brick_settings pel_bricks_resolve(const struct pel_brick_settings *settings,
+                                             enum pel_skip skip) {
     struct pel_brick_settings resolved = *settings;
     if (resolved.size == 0)
-        resolved.size = PEL_BRICK_SIZE;
+        resolved.size = skip == PEL_SKIP_BLOCKS ? PEL_SUB_BLOCK_SIZE : PEL_BRICK_SIZE;
     return resolved;
 }
 

@@ -11,10 +11,12 @@
 enum { PEL_CLUSTER_LARGEST = 16 };
 
 // Voxels along a side of a brick where the scene leaves it open (docs/performance.md).
-enum { PEL_BRICK_SIZE = 16 };
+// Those of sub-blocks are the ones of Derin et al. 2021.
+enum { PEL_BRICK_SIZE = 16, PEL_SUB_BLOCK_SIZE = 8 };
 
-// Settings with their defaults filled in.
-struct pel_brick_settings pel_bricks_resolve(const struct pel_brick_settings *settings);
+// Settings with the defaults of a way to skip filled in.
+struct pel_brick_settings pel_bricks_resolve(const struct pel_brick_settings *settings,
+                                             enum pel_skip skip);
 
 // False (ARGUMENT) unless the size is one that there is.
 bool pel_bricks_check(const struct pel_brick_settings *settings);

@@ -13,19 +13,24 @@
 
 enum { PICTURE_MAX = 32768 };
 
-static const char *const render_keys[] = {
-    "comment",        "size",           "mixing",  "step",  "step_mm",
-    "phase",          "termination",    "origin",  "skip",  "bricks",
-    "supersampling",  "jitter",         "debug",   "model", "order",
-    "emission_scale", "preintegration", "quality", NULL};
-static const char *const brick_keys[] = {"comment", "size", "cluster", "pool", NULL};
+static const char *const render_keys[] = {"comment",        "size",           "mixing",
+                                          "step",           "step_mm",        "phase",
+                                          "termination",    "origin",         "skip",
+                                          "bricks",         "supersampling",  "jitter",
+                                          "debug",          "model",          "order",
+                                          "emission_scale", "preintegration", "quality",
+                                          "region",         "shadows",        "ambient_occlusion",
+                                          "filter",         "gradient",       NULL};
+static const char *const brick_keys[] = {"comment", "size", "cluster", "walk",
+                                         "cull",    "pool", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
                                                  "seed",    "adaptive", NULL};
 static const char *const output_keys[] = {"comment", "file", "depth", "alpha", NULL};
 
 // In the order of their enums.
 static const char *const origin_names[] = {"volumes", "bounds", NULL};
-static const char *const skip_names[] = {"auto", "none", "grid", "distance", "octree", "bvh", NULL};
+static const char *const skip_names[] = {"auto",   "none", "grid",   "distance",
+                                         "octree", "bvh",  "blocks", NULL};
 static const char *const pool_names[] = {"auto", "off", "on", NULL};
 static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
                                           "work-group", "work-item", "time",  NULL};
@@ -87,6 +92,34 @@ static bool read_size(struct pel_render_settings *render, const struct pel_scene
     return true;
 }
 
+static bool read_region(struct pel_render_settings *render, const struct pel_scene_node *object) {
+    struct pel_scene_node node;
+    double region[4];
+    const struct pel_range range = {.low = 0, .high = PICTURE_MAX};
+    if (!pel_node_member(&node, object, "region"))
+        return true;
+    if (!pel_node_check_numbers(&node, 4, &range, region))
+        return false;
+    for (int i = 0; i < 4; i++) {
+        render->region[i] = (int)region[i];
+        if (region[i] != floor(region[i]))
+            return pel_node_fail(&node, "must be whole numbers, not %g", region[i]);
+    }
+    if (region[2] < 1 || region[3] < 1 || region[0] + region[2] > render->width ||
+        region[1] + region[3] > render->height)
+        return pel_node_fail(&node, "%g, %g, %g, %g is not inside the picture of %d x %d",
+                             region[0], region[1], region[2], region[3], render->width,
+                             render->height);
+    return true;
+}
+
+static void write_region(struct pel_scene_writer *writer, json_t *object) {
+    const int *region = writer->scene->render.region;
+    if (region[2] > 0)
+        pel_write_numbers(writer, object, "region", 4,
+                          (double[]){region[0], region[1], region[2], region[3]});
+}
+
 static bool read_supersampling(struct pel_supersampling *supersampling,
                                const struct pel_scene_node *render) {
     struct pel_scene_node node;
@@ -122,15 +155,18 @@ static bool read_bricks(struct pel_brick_settings *bricks, const struct pel_scen
     struct pel_scene_node node, size;
     if (!pel_node_member(&node, render, "bricks"))
         return true;
-    bool cluster = !bricks->apart;
+    bool cluster = !bricks->apart, walk = !bricks->stay, cull = !bricks->keep;
     int pool = (int)bricks->pool;
     if (!pel_node_check_object(&node, brick_keys) ||
         !pel_node_get_integer(&node, "size", 8, 128, &bricks->size) ||
         !pel_node_get_bool(&node, "cluster", &cluster) ||
+        !pel_node_get_bool(&node, "walk", &walk) || !pel_node_get_bool(&node, "cull", &cull) ||
         !pel_node_get_name(&node, "pool", pool_names, &pool))
         return false;
     bricks->pool = (enum pel_pool_use)pool;
     bricks->apart = !cluster;
+    bricks->stay = !walk;
+    bricks->keep = !cull;
     if (pel_bricks_check(bricks))
         return true;
     pel_node_member(&size, &node, "size");
@@ -142,6 +178,8 @@ static void write_bricks(struct pel_scene_writer *writer, json_t *render) {
     json_t *object = pel_write_object(writer, render, "bricks");
     pel_write_number(writer, object, "size", bricks->size, 0);
     pel_write_bool(writer, object, "cluster", !bricks->apart, true);
+    pel_write_bool(writer, object, "walk", !bricks->stay, true);
+    pel_write_bool(writer, object, "cull", !bricks->keep, true);
     pel_write_name(writer, object, "pool", pool_names, (int)bricks->pool, PEL_POOL_AUTO);
     if (json_object_size(object) == 0)
         json_object_del(render, "bricks");
@@ -156,6 +194,7 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
     int debug = (int)render->debug;
     bool good =
         pel_node_check_object(&node, render_keys) && read_size(render, &node) &&
+        read_region(render, &node) &&
         pel_node_get_name(&node, "mixing", pel_mixing_names(), &mixing) &&
         pel_scene_read_march(render, &node) &&
         pel_node_get_number(&node, "phase", &pel_unit_number, &render->phase) &&
@@ -164,7 +203,8 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
         pel_node_get_name(&node, "skip", skip_names, &skip) &&
         read_bricks(&render->bricks, &node) && read_supersampling(&render->supersampling, &node) &&
         pel_node_get_bool(&node, "jitter", &render->jitter) &&
-        pel_node_get_name(&node, "debug", debug_names, &debug);
+        pel_node_get_name(&node, "debug", debug_names, &debug) &&
+        pel_scene_read_secondary(render, &node);
     render->mixing = (enum pel_mixing)mixing;
     render->origin = (enum pel_sample_origin)origin;
     render->skip = (enum pel_skip)skip;
@@ -177,6 +217,7 @@ static void write_render(struct pel_scene_writer *writer, json_t *scene) {
     const struct pel_render_settings *usual = &writer->usual->render;
     json_t *object = pel_write_object(writer, scene, "render");
     pel_write_numbers(writer, object, "size", 2, (double[]){render->width, render->height});
+    write_region(writer, object);
     pel_write_name(writer, object, "mixing", pel_mixing_names(), render->mixing, usual->mixing);
     pel_scene_write_march(writer, object);
     pel_write_number(writer, object, "phase", render->phase, usual->phase);
@@ -187,6 +228,7 @@ static void write_render(struct pel_scene_writer *writer, json_t *scene) {
     write_supersampling(writer, object);
     pel_write_bool(writer, object, "jitter", render->jitter, false);
     pel_write_name(writer, object, "debug", debug_names, render->debug, PEL_DEBUG_NONE);
+    pel_scene_write_secondary(writer, object);
 }
 
 static bool read_output_file(struct pel_output_settings *output,

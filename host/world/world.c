@@ -16,6 +16,7 @@
 #include "world/mask.h"
 #include "world/mixing.h"
 #include "world/model.h"
+#include "world/secondary.h"
 #include "world/step.h"
 #include "world/strength.h"
 #include "world/style.h"
@@ -288,9 +289,14 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bool ends = settings->termination < 1 && !pel_model_never_ends(scene);
     bytes->termination = ends ? (float)settings->termination : 2;
     bytes->origin_bounds = settings->origin == PEL_ORIGIN_BOUNDS;
-    bytes->width = settings->width;
-    bytes->height = settings->height;
-    bytes->tiles_x = (settings->width + TILE_PX - 1) / TILE_PX;
+    bool part = settings->region[2] > 0;
+    bytes->left = settings->region[0];
+    bytes->top = settings->region[1];
+    bytes->width = part ? settings->region[2] : settings->width;
+    bytes->height = part ? settings->region[3] : settings->height;
+    bytes->whole_width = settings->width;
+    bytes->whole_height = settings->height;
+    bytes->tiles_x = (bytes->width + TILE_PX - 1) / TILE_PX;
     // The numbers of shared/pattern.h are in the order of the enums.
     const struct pel_supersampling *supersampling = &settings->supersampling;
     bytes->rays_n = supersampling->n > 1 ? supersampling->n : 1;
@@ -411,7 +417,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     world->depth = parts > 1 && world->mixing != MIXING_OVER && world->mixing != MIXING_ORDERED;
     bool good = build_tables(memo, world, scene);
     good = good && fill_instances(world, scene, layout, memo, centre) &&
-           fill_masks(world, scene, layout, centre);
+           fill_masks(world, scene, layout, centre) && pel_secondary_fill(world, scene);
     if (!good)
         pel_world_finish(world);
     return good;
@@ -454,7 +460,8 @@ double pel_world_raw(const struct pel_volume *volume, double value) {
 }
 
 size_t pel_world_bytes(const struct pel_world *world) {
-    return offsetof(struct world, cuts) + (size_t)world->cut_count * sizeof *world->bytes.cuts;
+    int rows = world->cut_count + world->bytes.occlusion_count;
+    return offsetof(struct world, cuts) + (size_t)rows * sizeof *world->bytes.cuts;
 }
 
 void pel_world_finish(struct pel_world *world) {

@@ -23,9 +23,17 @@
 // PASS_MERGE + l joins eight empty nodes of level l - 1 to one of level l, in the node's first cell, and PASS_NAME tells
 // every cell of the largest node that it lies in. Pass PASS_BRICK + b finds the bricks of 2^b cells along a side, one
 // after the other, in which some cell is not empty.
+//
+// For blocks (shared/block.h), PASS_VISIBLE finds the bins of the table of which something can be seen and PASS_CORNER
+// whether the value around the part's first corner can, each in one byte; PASS_BINS + b, the bins that the values of each
+// such brick touch; and PASS_SEEN keeps those of the stored sub-blocks in which some cell is not empty.
 #define PASS_OCCUPY 3
 #define PASS_NAME 4
+#define PASS_VISIBLE 5
+#define PASS_CORNER 6
+#define PASS_SEEN 7
 #define PASS_MERGE 16
 #define PASS_BRICK 32
+#define PASS_BINS 48
 
 #endif

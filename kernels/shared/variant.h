@@ -40,6 +40,7 @@
 #define SKIP_DISTANCE 2 // by the distance to the nearest cell with something in it
 #define SKIP_OCTREE 3   // by the nodes of an octree
 #define SKIP_BVH 4      // by a hierarchy over clusters of bricks
+#define SKIP_BLOCKS 5   // from block to block, and by the sub-blocks in them
 
 // Of a part: how light is gathered in it (docs/picture.md, "Optical models").
 #define MODEL_ABSORPTION 0
@@ -66,6 +67,11 @@
 #define SHADING_NONE 0
 #define SHADING_BLINN_PHONG 1
 #define SHADING_PHONG 2
+
+// SECONDARY: which rays go on from the samples that are shaded, one bit each.
+#define SECONDARY_SHADOWS 1   // to each lamp
+#define SECONDARY_OCCLUSION 2 // around the normal
+#define OCCLUSION_MAX 64      // of these
 
 // Of a part: how its gradient is found. The knob STYLE is 1 when some part has another than central
 // differences, or opacity that follows the gradient.

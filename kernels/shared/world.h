@@ -22,6 +22,9 @@
 // of values for each part, and a matrix between each part and one of its mask's.
 #define WORLD_CUT_MAX (32 * 16 * 3 + 32 * WORLD_PART_MAX + 3 * 32 * 32)
 
+// And behind them the directions of ambient occlusion.
+#define WORLD_ROW_MAX (WORLD_CUT_MAX + OCCLUSION_MAX)
+
 // The ray of picture-plane coordinates (u, v), in -1..1 upwards and to the right, starts at
 // eye + u * eye_right + v * eye_up and runs along forward + u * right + v * up.
 struct camera {
@@ -99,9 +102,11 @@ struct world {
     float phase;       // of the first sample, in steps
     float termination; // opacity beyond which a ray ends; above 1: never
     i32 origin_bounds; // 1: samples count from the bounds, 0: from the nearest part
-    i32 width, height; // of the picture in pixels
-    i32 tiles_x;       // tiles in a row of the picture
+    i32 width, height; // in pixels, of the picture or of the part of it that is rendered
+    i32 tiles_x;       // tiles in a row of that
     i32 part_count;
+    i32 whole_width, whole_height; // of the whole picture
+    i32 left, top;                 // where the part lies in it
     i32 rays_n;         // supersampling: rays_n x rays_n rays a pixel (shared/pattern.h)
     i32 pattern;        // one of PATTERN_*
     i32 reconstruction; // one of RECONSTRUCTION_*
@@ -113,14 +118,18 @@ struct world {
     i32 weave_x, weave_y; // EYES_WOVEN: pixels where weave_x * x + weave_y * y is odd are the second eye's
     i32 pictures; // above each other, one of each eye: 1 or 2
     i32 pad[1];
+    float shadow_step_mm, shadow_length_mm, shadow_strength;
+    float occlusion_step_mm, occlusion_radius_mm, occlusion_strength;
+    i32 occlusion_count; // directions,
+    i32 directions;      // and the index of the first one's row
     float4 balls[WORLD_PART_MAX]; // around the box of each part: middle and radius
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
-    float4 cuts[WORLD_CUT_MAX]; // only as many as there are reach the device
+    float4 cuts[WORLD_ROW_MAX]; // only as many as there are reach the device
 };
 
 SHARED_ASSERT(sizeof(struct world) ==
-                  320 + 48 * LAMP_MAX + (16 + 448) * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
+                  368 + 48 * LAMP_MAX + (16 + 448) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
               world_size);
 
 #endif

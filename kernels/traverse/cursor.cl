@@ -21,8 +21,11 @@
 // in memory coordinates are origin + i * delta; lanes that miss the part rest at a safe place inside it.
 struct cursor {
     integer first, end, next;
-#if SKIP == SKIP_BVH
-    integer inside; // before this sample, the ray is inside a cluster
+#if SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
+    integer inside; // before this sample, the ray is inside a cluster or a sub-block
+#endif
+#if SKIP == SKIP_BLOCKS
+    integer block; // the one that the ray has been in last, or -1
 #endif
     real ox, oy, oz;
     real dx, dy, dz;
@@ -48,8 +51,11 @@ INLINE struct cursor cursor_begin(__constant struct world *world, __constant str
     cursor.first = CHOOSE((integer)(SAMPLE_NEVER), first, runs);
     cursor.end = CHOOSE((integer)(0), end, runs);
     cursor.next = cursor.first;
-#if SKIP == SKIP_BVH
+#if SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
     cursor.inside = (integer)(0);
+#endif
+#if SKIP == SKIP_BLOCKS
+    cursor.block = (integer)(-1);
 #endif
 
     const real t_first = t_near + phase * step_mm;

@@ -1,11 +1,9 @@
 // grid.cl - skips by a grid of cells of CELL_VOXELS^3 voxels.
 //
-// Each cell holds how far away the nearest cell is in which something may be visible: 0 for itself,
-// else the Chebyshev distance in cells. A ray in a cell at distance d leaves the empty cube of 2 d
-// - 1 cells at once
-// (`distance`; Cohen & Sheffer 1994, proximity clouds), or the one cell it is in (`grid`; the DDA
-// of Amanatides & Woo 1987, one cell a leap). Samples stay where they are, so the picture is the
-// same.
+// Each cell holds how far away the nearest cell is in which something may be visible: 0 for itself, else the
+// Chebyshev distance in cells. A ray in a cell at distance d leaves the empty cube of 2 d - 1 cells at once
+// (`distance`; Cohen & Sheffer 1994, proximity clouds), or the one cell it is in (`grid`; the DDA of Amanatides &
+// Woo 1987, one cell a leap). Samples stay where they are, so the picture is the same.
 #ifndef GRID_CL
 #define GRID_CL
 
@@ -14,8 +12,7 @@
 
 #define LOAD_CELL(at) cells[at]
 
-// How many samples from x on lie before the ray leaves the cells within `reach` of its own, along
-// one axis.
+// How many samples from x on lie before the ray leaves the cells within `reach` of its own, along one axis.
 INLINE real samples_to_exit(real x, real delta, integer cell, integer reach) {
     const mask forward = MASK(delta >= 0.0f);
     const integer plane = CHOOSE(cell - reach + 1, cell + reach, forward) << CELL_BITS;

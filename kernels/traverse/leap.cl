@@ -1,13 +1,13 @@
 // leap.cl - what the ways to skip by cells share: how far to the next plane between them, and the
 // leap.
 //
-// Included by span.cl before grid.cl and octree.cl.
+// Included by span.cl before grid.cl, octree.cl and blocks.cl.
 #ifndef LEAP_CL
 #define LEAP_CL
 
 #include "traverse/cursor.cl"
 
-#if SKIP == SKIP_GRID || SKIP == SKIP_DISTANCE || SKIP == SKIP_OCTREE
+#if SKIP != SKIP_NONE && SKIP != SKIP_BVH
 
 // How many samples from x on lie before the ray meets a plane between voxels, along one axis.
 INLINE real samples_to_plane(real x, real delta, integer plane) {

@@ -55,11 +55,14 @@ png eye.png '__import__("json").loads(texts["camera"])["fov"] == 30'
 for option in '--mix over' '--filter nearest' '--termination 1' '--phase 0.25' '--density 0.5' '--background white' \
     '--background 0.1,0.2,0.3' '--background #102030' '--transfer viridis' '--alpha premultiplied' '--reader buffer' \
     '--shading' '--shading=off' '--shading=model=phong,ambient=0.2,shininess=30' '--lanes 4' '--lanes 1' \
-    '--work-group 1' '--set camera.fov=20' '--quiet' \
+    '--shading --shadows' '--shading --shadows=length=9,strength=0.5 --ambient-occlusion=directions=2,radius=4,step=3' \
+    '--shadows=off --ambient-occlusion' '--work-group 1' '--set camera.fov=20' '--quiet' \
     '--supersample 2 --supersample-pattern n-rooks --supersample-filter gaussian --seed 3 --jitter'; do
     # shellcheck disable=SC2086
     expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" $option -o option.png
 done
+
+expect 2 "--shadows: 'dark' is not on, off or KEY=VALUE,..." render data/box.nii.gz --shadows=dark -o none.png
 
 # Two eyes: sizes that follow from the kind; two files; what it cost.
 for kind in side-by-side top-bottom side-by-side-half colour-red-cyan matrix; do
@@ -114,6 +117,12 @@ png said.png '(width, height) == (20, 10)'
 expect 0 '' render scene.json -o other.tif
 [ -s other.tif ] || complain "no other.tif"
 
+# A link stays, and the file it leads to is replaced.
+mkdir links && echo old >links/target.png && ln -s target.png links/name.png
+expect 0 '' render data/box.nii.gz "${small[@]}" -o links/name.png
+[ -L links/name.png ] || complain "the link was replaced"
+png links/target.png 'width == 32'
+
 # PPM on standard output: a header and three bytes a pixel.
 expect 0 '^P6$' render data/box.nii.gz "${small[@]}" -o -
 python3 -c '
@@ -143,7 +152,7 @@ expect 2 "^pellucid: --mask: '0:1' is not like 0=labels:7,8, ct!=labels:1,3..5 o
 expect 2 "volumes.0.mask.*'box.nii.gz' is this volume" render data/box.nii.gz --mask 0=0:1
 
 # A debug view is a picture of numbers, and one ray tells what it meets.
-expect 0 '' render data/box.nii.gz "${small[@]}" --debug samples -o samples.png --json
+expect 0 '' render data/box.nii.gz "${small[@]}" --set camera.fit=all --debug samples -o samples.png --json
 check_json 'x["debug"]["min"] == 0 and abs(x["debug"]["mean"] * 32 * 24 - x["samples"]) < 1'
 expect 2 'render\.debug="samlpes": must be none, samples, ' render data/box.nii.gz --debug samlpes
 expect 0 '^spans    1$' render data/box.nii.gz "${small[@]}" --pixel 16,12

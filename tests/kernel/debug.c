@@ -123,7 +123,10 @@ static void test_probe(void **state) {
     struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 0);
     struct pel_scene *scene = two_boxes();
     struct pel_probe probe;
+    // Its pixel counts in the whole picture, whatever part of it is rendered.
+    memcpy(scene->render.region, (int[]){1, 2, 3, 4}, sizeof scene->render.region);
     assert_true(pel_renderer_probe(renderer, scene, 12, 8, &probe));
+    memset(scene->render.region, 0, sizeof scene->render.region);
     // The camera is at z = 100 and looks along -z; the first sample lies a quarter of a millimetre
     // in.
     static const double spans[3][2] = {{92.75, 97.75}, {97.75, 102.75}, {102.75, 107.75}};

@@ -91,6 +91,10 @@ static const struct {
     AT(world, height),
     AT(world, tiles_x),
     AT(world, part_count),
+    AT(world, whole_width),
+    AT(world, whole_height),
+    AT(world, left),
+    AT(world, top),
     AT(world, rays_n),
     AT(world, pattern),
     AT(world, reconstruction),
@@ -103,6 +107,14 @@ static const struct {
     AT(world, weave_y),
     AT(world, pictures),
     AT(world, balls),
+    AT(world, shadow_step_mm),
+    AT(world, shadow_length_mm),
+    AT(world, shadow_strength),
+    AT(world, occlusion_step_mm),
+    AT(world, occlusion_radius_mm),
+    AT(world, occlusion_strength),
+    AT(world, occlusion_count),
+    AT(world, directions),
     AT(world, lamps),
     AT(world, parts),
     AT(world, cuts),
@@ -129,7 +141,7 @@ enum { COUNT = sizeof host / sizeof *host };
 
 static void test_layout(void **state) {
     (void)state;
-    struct pel_device *device = pel_device_open(NULL);
+    struct pel_device *device = pel_device_open(NULL, 0);
     if (!device)
         fail_msg("%s", pel_error_message());
     struct pel_kernel *kernel =

@@ -57,7 +57,8 @@ static void test_same_picture(void **state) {
         enum pel_skip skip;
         bool shaded;
         int lanes;
-    } cases[] = {{PEL_VOXEL_U8, PEL_SKIP_BVH, false, 4}, {PEL_VOXEL_F32, PEL_SKIP_NONE, true, 1}};
+    } cases[] = {{PEL_VOXEL_U8, PEL_SKIP_BLOCKS, false, 4},
+                 {PEL_VOXEL_F32, PEL_SKIP_NONE, true, 1}};
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, cases[n].lanes);
         struct pel_scene *scene = scene_of_balls(cases[n].type, cases[n].shaded);

@@ -65,13 +65,97 @@ static void test_same_picture(void **state) {
             print_message("%s: %.3f of the samples\n", ways[n].name,
                           (double)samples[n] / (double)samples[0]);
             // Bricks are twice as wide as cells, and in this volume few are empty.
-            bool bricks = ways[n].skip == PEL_SKIP_BVH;
+            bool bricks = ways[n].skip == PEL_SKIP_BVH || ways[n].skip == PEL_SKIP_BLOCKS;
             assert_true((double)samples[n] < (bricks ? 0.97 : 0.75) * (double)samples[0]);
         }
         pel_image_destroy(judge_render(renderer, scene, NULL, "crests"));
         pel_scene_destroy(scene);
         pel_renderer_destroy(renderer);
     }
+}
+
+// However blocks are found and whatever of them is culled, the picture is the same; and what cannot
+// be seen any more, or can now, is so after an edit.
+static void test_blocks(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 4);
+    struct pel_scene *scene = scene_of_crests();
+    struct pel_render_statistics statistics;
+    uint64_t samples[4];
+    struct pel_image *first = NULL;
+    scene->render.skip = PEL_SKIP_BLOCKS;
+    for (int n = 0; n < 4; n++) {
+        scene->render.bricks.stay = n & 1;
+        scene->render.bricks.keep = n & 2;
+        struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, &statistics);
+        assert_non_null(picture);
+        assert_int_equal(statistics.skip, PEL_SKIP_BLOCKS);
+        assert_int_equal(statistics.bricks.size, 8);
+        samples[n] = statistics.samples;
+        if (first)
+            assert_pictures_equal(picture, first, "walking and culling");
+        pel_image_destroy(first);
+        first = picture;
+    }
+    // Walking finds no more and no less; the values of this volume touch all bins somewhere.
+    assert_int_equal(samples[1], samples[0]);
+    assert_int_equal(samples[3], samples[2]);
+    assert_true(samples[0] < samples[2]);
+    pel_image_destroy(first);
+
+    scene->render.bricks.stay = scene->render.bricks.keep = false;
+    struct pel_opacity_point *edges = scene->instances[0].transfer->opacities;
+    pel_image_destroy(judge_render(renderer, scene, &statistics, "before edits"));
+    uint64_t stored = statistics.bricks.active, taken = statistics.samples;
+    edges[1].value = 60;
+    pel_image_destroy(judge_render(renderer, scene, &statistics, "more to be seen"));
+    assert_true(statistics.samples > taken);
+    assert_int_equal(statistics.bricks.active, stored);
+    // Tables, and less than half of the bricks that the voxels lie in.
+    assert_true(statistics.uploaded_bytes < 5 * 9856);
+    edges[1].value = edges[2].value = 230;
+    pel_image_destroy(judge_render(renderer, scene, &statistics, "less to be seen"));
+    assert_true(statistics.samples < taken);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
+// A box in nothing: what its corner is filled with is not stored until it can be seen.
+static double box(const double p[3], const void *user) {
+    const double *ends = user;
+    for (int c = 0; c < 3; c++)
+        if (p[c] < ends[0] || p[c] > ends[1])
+            return 10;
+    return 200;
+}
+
+static void test_no_data(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 4);
+    struct pel_scene *scene = scene_create(scene_is_small() ? 12 : 32, scene_is_small() ? 9 : 24);
+    // Stored with its border, the volume has 64 voxels a side: 8^3 sub-blocks, of which the box is
+    // in 2^3, and in the corner that eight blocks of 6^3 meet in only one of them.
+    const double ends[2] = {17, 28};
+    struct pel_volume *volume = scene_volume((int[]){62, 62, 62}, PEL_VOXEL_U8, box, ends);
+    struct pel_instance *instance = scene_add(
+        scene, volume,
+        scene_transfer(
+            (const double[][5]){
+                {0, 1, 0.5, 0, 0}, {100, 1, 0.5, 0, 0}, {200, 0, 0.5, 1, 0.5}, {255, 1, 1, 1, 0.8}},
+            4));
+    scene_view_parallel(scene, 64);
+    scene->render.skip = PEL_SKIP_BLOCKS;
+    struct pel_render_statistics statistics;
+    pel_image_destroy(judge_render(renderer, scene, &statistics, "a box"));
+    assert_int_equal(statistics.bricks.total, 512);
+    assert_int_equal(statistics.bricks.active, 8);
+    assert_int_equal(statistics.bricks.clusters, 1);
+    instance->transfer->opacities[0].opacity = 0.01;
+    pel_image_destroy(judge_render(renderer, scene, &statistics, "a box in fog"));
+    assert_int_equal(statistics.bricks.active, 512);
+    assert_int_equal(statistics.bricks.clusters, 8);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
 }
 
 static int is_scene(const struct dirent *entry) {
@@ -110,6 +194,8 @@ static void test_all_scenes(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_picture),
+        cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_no_data),
         cmocka_unit_test(test_all_scenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

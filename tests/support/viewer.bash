@@ -37,6 +37,33 @@ open() {
     done
     [ -n "$window" ] || { complain "no window: $(cat view.err)"; return 1; }
     xdotool windowfocus "$window"
+    # It has its name once it takes events.
+    wait_name ' - Pellucid'
+}
+
+# wait_name PATTERN - waits until the window's name matches: FILE, or FILE* while there is something to be saved.
+wait_name() {
+    for _ in $(seq 600); do
+        [[ "$(xdotool getwindowname "$window" 2>/dev/null)" =~ $1 ]] && return
+        sleep 0.05
+    done
+    complain "the window's name is '$(xdotool getwindowname "$window" 2>&1)', not '$1'"
+}
+
+# wait_for PATH - waits until a file exists.
+wait_for() {
+    for _ in $(seq 600); do
+        [ -e "$1" ] && return
+        sleep 0.05
+    done
+    complain "there is no $1: $(cat view.err)"
+}
+
+# saved FILE - saves the scene by its key. What was done before is then done, as events are taken in their order.
+saved() {
+    rm -f "$1"
+    xdotool key ctrl+s
+    wait_for "$1"
 }
 
 # shut - quits by the key, and checks that the program agrees.

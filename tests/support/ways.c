@@ -3,7 +3,8 @@
 
 const struct way ways[] = {
     {"none", PEL_SKIP_NONE},     {"grid", PEL_SKIP_GRID}, {"distance", PEL_SKIP_DISTANCE},
-    {"octree", PEL_SKIP_OCTREE}, {"bvh", PEL_SKIP_BVH},   {NULL, PEL_SKIP_AUTO},
+    {"octree", PEL_SKIP_OCTREE}, {"bvh", PEL_SKIP_BVH},   {"blocks", PEL_SKIP_BLOCKS},
+    {NULL, PEL_SKIP_AUTO},
 };
 
 _Static_assert(sizeof ways / sizeof *ways == WAYS + 1, "all ways are counted");

@@ -110,7 +110,8 @@ static void test_parallax(void **state) {
     assert_float_equal(parallax.shift_px - parallax.reach_mm_px / 50, -10, 1e-9);
     // The left camera's middle ray goes to (0, 0, 0) and is as long as from (-5, 0, 100).
     float depth[] = {(float)sqrt(100 * 100 + 5 * 5)};
-    pel_depth_from_distance(depth, &cameras[0], 1, 1);
+    const struct pel_render_settings settings = {.width = 1, .height = 1};
+    pel_depth_from_distance(depth, &cameras[0], &settings);
     assert_float_equal(depth[0], 100, 1e-4);
 }
 

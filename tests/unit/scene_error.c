@@ -43,9 +43,14 @@ static const struct {
      "bad.json:1:22: render.size.0: must be at least 1 and at most 32768, not 0"},
     {"{'render': {'size': [1.5, 5]}, " TEST_VOLUMES "}",
      "bad.json:1:13: render.size: must be whole numbers, not 1.5 x 5"},
+    {"{'render': {'size': [9, 5], 'region': [5, 0, 5, 5]}, " TEST_VOLUMES "}",
+     "bad.json:1:29: render.region: 5, 0, 5, 5 is not inside the picture of 9 x 5"},
     {"{'render': {'mixing': 'most'}, " TEST_VOLUMES "}",
      "bad.json:1:13: render.mixing: must be sum, over, ordered, max, priority, union, "
      "intersection or difference, not \"most\""},
+    {"{'render': {'filter': 'cubic'}, " TEST_VOLUMES "}",
+     "bad.json:1:13: render.filter: must be linear, nearest, cubic-b-spline or catmull-rom, not "
+     "\"cubic\""},
     {"{'volumes': [{" TEST_VOLUME ", 'mask': {'labels': 1}}]}",
      "bad.json:1:60: volumes.0.mask: needs 'volume', the name or the index of another one"},
     {"{'volumes': [{" TEST_VOLUME ", 'mask': {'volume': 'b', 'labels': 1}}]}",

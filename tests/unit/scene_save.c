@@ -60,12 +60,16 @@ static const char *const rich[] = {
     "   {'generate': {'kind': 'head-pair', 'size': 8, 'spacing': 20, 'type': 'float32',"
     "   'second': true}, 'palette': 'hot', 'opacity_unit': 7, 'step_mm': 0.2, 'model': 'iso', "
     "'iso': [3.5, {'value': 4, 'colour': [0.1, 0.2, 0.3], 'opacity': 0.3}]}],"
-    " 'render': {'size': [34, 22], 'mixing': 'over', 'step': 0.7, 'phase': 0.25,"
-    "   'termination': 0.8, 'origin': 'bounds', 'skip': 'grid', 'bricks': {'size': 16, 'cluster': "
-    "false, 'pool': 'on'}, 'jitter': true, 'debug': 'spans', "
+    " 'render': {'size': [34, 22], 'region': [3, 4, 30, 1], 'mixing': 'over', 'step': 0.7, "
+    "'phase': 0.25,"
+    "   'termination': 0.8, 'origin': 'bounds', 'skip': 'blocks', 'bricks': {'size': 16, "
+    "'cluster': "
+    "false, 'walk': false, 'cull': false, 'pool': 'on'}, 'jitter': true, 'debug': 'spans', "
+    "'filter': 'catmull-rom', 'gradient': 'analytic', "
     "'model': 'mip', 'order': 'back-to-front', 'emission_scale': 0.3, 'preintegration': true,"
     "   'supersampling': {'n': 2, 'pattern': 'n-rooks', 'filter': 'gaussian', 'seed': 3,"
-    "   'adaptive': 0.1}},"
+    "   'adaptive': 0.1}, 'shadows': {'length': 50, 'step': 3, 'strength': 0.7},"
+    "   'ambient_occlusion': {'directions': 9, 'radius': 8, 'step': 1.5, 'strength': 0.6}},"
     " 'stereo': {'kind': 'matrix', 'separation': 5, 'convergence': 77.5, 'swap': true, "
     "'reproject': true,"
     "   'toe_in': true, 'matrix': [[1, 0, 0, 0, 0, 0.1], [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1]]},"
@@ -82,7 +86,8 @@ static const char *const rich[] = {
     "true}, {'hypertexture': {'recipe': {'value': ['*', 'time', 'object']}, 'size': 8, 'type':"
     "   'float32', 'seed': 3, 'time': 0.5, 'live': true, 'object': 'a.raw'}},"
     "   {'hypertexture': {'recipe': 'cloud', 'size': 4, 'wrap': true}}],"
-    " 'background': 'none', 'render': {'step_mm': 0.37},"
+    " 'background': 'none', 'render': {'step_mm': 0.37, 'shadows': true, 'ambient_occlusion': "
+    "true},"
     " 'stereo': {'kind': 'red-blue', 'separation': 0}, 'animation': {'duration': 2}, 'wall': "
     "{'columns': 3, 'rows': 2, 'bezel': [0.04, 0.05]}, 'output': "
     "{'file': '-'}}",
@@ -171,12 +176,23 @@ static void test_round_trip(void **state) {
 // ---- Every key ---------------------------------------------------------------------------------
 
 // Keys that say what other keys say: what they mean is written by those.
-static const char *const other_words[] = {
-    "comment",         "$schema",         "camera.view",
-    "camera.fit",      "volume.palette",  "volume.opacity_unit",
-    "render.quality",  "transfer.preset", "transfer.range",
-    "transfer.colors", "transfer.scale",  "wall.columns",
-    "wall.rows",       "wall.bezel",      NULL};
+static const char *const other_words[] = {"comment",
+                                          "$schema",
+                                          "camera.view",
+                                          "camera.fit",
+                                          "volume.palette",
+                                          "volume.opacity_unit",
+                                          "render.quality",
+                                          "render.filter",
+                                          "render.gradient",
+                                          "transfer.preset",
+                                          "transfer.range",
+                                          "transfer.colors",
+                                          "transfer.scale",
+                                          "wall.columns",
+                                          "wall.rows",
+                                          "wall.bezel",
+                                          NULL};
 
 // Objects whose keys are ways to say one thing.
 static const char *const other_ways[] = {"transform", NULL};

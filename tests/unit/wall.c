@@ -5,7 +5,9 @@
 #include <math.h>
 
 #include "viewer/vector.h"
+#include "viewer/pace.h"
 #include "viewer/view.h"
+#include "viewer/wall.h"
 
 static struct pel_scene *load_wall(const char *wall) {
     char text[1024];
@@ -107,12 +109,63 @@ static void test_stereo(void **state) {
     pel_scene_destroy(scene);
 }
 
+// Without bezels every pixel of the whole belongs to one window.
+static void test_tiling(void **state) {
+    (void)state;
+    struct pel_scene *scene = load_wall("{'columns': 3, 'rows': 2}");
+    const int wall_px[2] = {101, 67};
+    int covered[101 * 67] = {0};
+    for (int i = 0; i < 6; i++) {
+        struct pel_wall_part part = pel_wall_place(&scene->wall, i, wall_px);
+        const int *region = part.region;
+        for (int y = region[1]; y < region[1] + region[3]; y++)
+            for (int x = region[0]; x < region[0] + region[2]; x++)
+                covered[y * 101 + x]++;
+        struct pel_wall_part fitted = pel_wall_fit(&scene->wall, i, wall_px, &region[2]);
+        assert_memory_equal(&fitted, &part, sizeof part);
+    }
+    for (int i = 0; i < 101 * 67; i++)
+        assert_int_equal(covered[i], 1);
+    // Monitors of their own size are those of a larger wall.
+    struct pel_wall_part part = pel_wall_fit(&scene->wall, 4, wall_px, (int[]){200, 100});
+    const struct pel_wall_part expected = {{600, 200}, {200, 100, 200, 100}};
+    assert_memory_equal(&part, &expected, sizeof part);
+    pel_scene_destroy(scene);
+}
+
+// A quick picture has fewer pixels, and the part that is shown of it lies where it did.
+static void test_quick_part(void **state) {
+    (void)state;
+    const struct pel_render_settings asked = {
+        .width = 100, .height = 90, .region = {33, 10, 30, 41}, .step = 1};
+    const struct pel_quality quality = {3, 1, 1};
+    struct pel_render_settings applied = pel_pace_apply(&asked, &quality);
+    assert_int_equal(applied.width, 34);
+    assert_int_equal(applied.height, 30);
+    double part[4];
+    pel_pace_part(&asked, &applied, part);
+    for (int axis = 0; axis < 2; axis++) {
+        const int whole = axis ? asked.height : asked.width;
+        const int fewer = axis ? applied.height : applied.width;
+        const double low = applied.region[axis] + part[axis] * applied.region[2 + axis];
+        const double size = part[2 + axis] * applied.region[2 + axis];
+        assert_float_equal(low / fewer, (double)asked.region[axis] / whole, 1e-9);
+        assert_float_equal(size / fewer, (double)asked.region[2 + axis] / whole, 1e-9);
+        assert_true(applied.region[axis] + applied.region[2 + axis] <= fewer);
+    }
+    // The scene's own quality shows all of what was asked for.
+    applied = pel_pace_apply(&asked, &(struct pel_quality){1, 1, 1});
+    pel_pace_part(&asked, &applied, part);
+    assert_memory_equal(applied.region, asked.region, sizeof asked.region);
+    for (int i = 0; i < 4; i++)
+        assert_float_equal(part[i], i < 2 ? 0 : 1, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_rays),
-        cmocka_unit_test(test_stereo),
+        cmocka_unit_test(test_grid),   cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_rays),   cmocka_unit_test(test_stereo),
+        cmocka_unit_test(test_tiling), cmocka_unit_test(test_quick_part),
     };
     return cmocka_run_group_tests(tests, test_write_volumes, NULL);
 }

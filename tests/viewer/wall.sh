@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# wall.sh - windows of a wall show parts of one picture without a seam: what they show, put together, is what render
+# makes, at rest, for two eyes, after a real drag that crosses from window to window, and with a device of its own.
+source "$SOURCE/tests/support/viewer.bash"
+"$PELLUCID" generate head-ct --size 24 -o ct.nrrd 2>/dev/null || complain "cannot generate"
+cat >scene.json <<'EOF'
+{"volumes": [{"file": "ct.nrrd"}], "render": {"size": [241, 135]},
+ "wall": {"columns": 3, "rows": 2}}
+EOF
+"$PELLUCID" render scene.json -o whole.ppm || complain "cannot render"
+
+# same TITLE A B - complains when two pictures differ.
+same() {
+    local difference
+    difference=$(differ "$2" "$3")
+    [ "$difference" = 0 ] || complain "$1: the windows and the picture differ by $difference"
+}
+
+expect 0 '' view scene.json --bare --screenshot six.ppm
+same "3 x 2" six.ppm whole.ppm
+
+# Two windows, each with a device of its own; that it is the same one makes no difference to the program.
+two='{"regions": [{"place": [0, 0, 0.5, 1]}, {"place": [0.5, 0, 0.5, 1], "device": "cpu"}]}'
+expect 0 '' view scene.json --bare --set "wall=$two" --screenshot two.ppm
+same "two windows" two.ppm whole.ppm
+
+# Rows of two eyes go on from window to window.
+eyes=(--set stereo.kind=row-interlaced --set stereo.separation=8)
+"$PELLUCID" render scene.json "${eyes[@]}" -o whole.ppm || complain "cannot render"
+expect 0 '' view scene.json --bare "${eyes[@]}" --screenshot eyes.ppm
+same "two eyes" eyes.ppm whole.ppm
+
+# What the bezels hide is hidden: it is black, and all else is as it is without them.
+"$PELLUCID" render scene.json --set wall=null -o whole.ppm || complain "cannot render"
+expect 0 '' view scene.json --bare --set 'wall={"columns": 2, "bezel": [0.1, 0]}' --screenshot bezel.ppm
+python3 - <<'EOF' || complain "bezels: the windows and the picture differ"
+import sys
+def read(path):
+    data = open(path, "rb").read()
+    _, width, height, _, _ = data.split(None, 4)
+    width, height = int(width), int(height)
+    data = data[-width * height * 3:]
+    return [[data[3 * (y * width + x):][:3] for y in range(height)] for x in range(width)]
+shown, whole = read("bezel.ppm"), read("whole.ppm")
+hidden = [x for x in range(len(whole)) if shown[x] != whole[x]]
+# 241 pixels are 2.1 windows: one of them ends at 114.8, and the next begins at 126.2.
+sys.exit(not hidden or hidden[0] < 115 or hidden[-1] > 125 or any(max(p) for x in hidden for p in shown[x]))
+EOF
+
+# A drag that begins in one window and ends in another turns both.
+open scene.json --bare --screenshot after.ppm --frames 100000 || exit 1
+xdotool mousemove 60 40 mousedown 1
+for x in 80 100 120 140 160; do
+    xdotool mousemove $x 50 sleep 0.03
+done
+xdotool mouseup 1
+wait_name 'scene.json\*'
+saved scene.json
+shut
+"$PELLUCID" render scene.json -o after-whole.ppm || complain "the saved scene does not render"
+same "after a drag" after.ppm after-whole.ppm
+[ "$(differ after.ppm whole.ppm)" != 0 ] || complain "the drag changed nothing"
+
+# A monitor that is not there.
+expect 6 'there is no monitor 8, but 1 of them' view scene.json --full-screen=7
+exit $failed
