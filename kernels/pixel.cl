@@ -54,6 +54,15 @@ INLINE struct ray pixel_rays(__constant struct world *world, int eye, int left, 
 #endif
     for (int lane = 0; lane < LANES; lane++) {
         const int x_px = left + lane % PACKET_W, y_px = top + lane / PACKET_W;
+        phases[lane] = 0.0f;
+        xs[lane] = ys[lane] = 0.5f;
+#if SUPERSAMPLING
+        const bool inside = x_px < world->width && y_px < world->height;
+        const int pixel = inside ? FIRST_PIXEL(world, eye) + y_px * world->width + x_px : 0;
+        runs[lane] = inside && (all || refined[pixel]) ? 1.0f : 0.0f;
+        if (runs[lane] == 0.0f)
+            continue;
+#endif
         const uint key = pattern_key(world->seed, world->left + x_px, world->top + y_px);
 #if SUPERSAMPLING
         const uint s = number == RAY_CENTRE ? 0 : number;
@@ -61,14 +70,10 @@ INLINE struct ray pixel_rays(__constant struct world *world, int eye, int left, 
         const uint s = 0;
 #endif
         phases[lane] = (float)(pattern_draw(key, DRAW_PHASE + s) & 0xffffffu) * 0x1p-24f;
-        xs[lane] = ys[lane] = 0.5f;
 #if SUPERSAMPLING
         const struct pattern_place place = pattern_place(world->pattern, world->rays_n, key, s);
         xs[lane] = number == RAY_CENTRE ? 0.5f : (float)place.x * 0x1p-24f;
         ys[lane] = number == RAY_CENTRE ? 0.5f : (float)place.y * 0x1p-24f;
-        const bool inside = x_px < world->width && y_px < world->height;
-        const int pixel = inside ? FIRST_PIXEL(world, eye) + y_px * world->width + x_px : 0;
-        runs[lane] = inside && (all || refined[pixel]) ? 1.0f : 0.0f;
 #endif
     }
 #define X_IN_PIXEL(lane) xs[lane]

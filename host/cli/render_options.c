@@ -99,9 +99,7 @@ static const struct argp_option argp_options[] = {
     {"stereo-toe-in", KEY_STEREO_TOE_IN, NULL, 0,
      "Turn the cameras inwards instead of shifting their windows", 0},
     {"stereo-reproject", KEY_STEREO_REPROJECT, NULL, 0,
-     "Make the second eye's picture from the first one's, and cast rays only where that leaves "
-     "holes: faster, not exact; --json measures by how much",
-     0},
+     "Make the second eye's picture from the first one's: faster, not exact (--json says both)", 0},
     {0, 0, NULL, 0, "The volumes, all of them:", 3},
     {"transfer", KEY_TRANSFER, "PRESET|FILE", 0, "Transfer function", 0},
     {"density", KEY_DENSITY, "X", 0, "Multiplies the extinction", 0},

@@ -29,6 +29,18 @@ struct row {
     double *nearest;   // inverse depth of what the second picture's pixels show; -1: nothing
 };
 
+// The least pixel whose middle is at or right of place a, and the greatest at or left of it, in a
+// row of that width, or one beyond its ends.
+static int pixel_from(double a, int width) {
+    double clamped = a < 0.5 ? 0.5 : a > width + 1 ? width + 1 : a;
+    int k = (int)(clamped - 0.5);
+    return k + (k < clamped - 0.5);
+}
+
+static int pixel_up_to(double a, int width) {
+    return a < 0.5 ? -1 : a >= width ? width - 1 : (int)(a - 0.5);
+}
+
 static double half_height(const struct pel_camera *camera) {
     return tan(camera->fov_deg * PEL_PI / 360);
 }
@@ -65,7 +77,7 @@ void pel_depth_from_distance(float *depth, const struct pel_camera *camera,
 // Sets the pixels between i and the next one.
 static void fill_between(struct row *row, int i) {
     double a = row->place[i], b = row->place[i + 1];
-    int first = (int)fmax(ceil(a - 0.5), 0), last = (int)fmin(floor(b - 0.5), row->width - 1);
+    int first = pixel_from(a, row->width), last = pixel_up_to(b, row->width);
     for (int k = first; k <= last; k++) {
         double weight = (k + 0.5 - a) / (b - a);
         double near = row->near[i] + weight * (row->near[i + 1] - row->near[i]);
@@ -82,8 +94,8 @@ static void fill_between(struct row *row, int i) {
 
 // Has the rays around pixel i cast, unless something nearer is there.
 static void cast_around(struct row *row, int i) {
-    int first = (int)fmax(ceil(row->place[i] - 1.5), 0);
-    int last = (int)fmin(floor(row->place[i] + 0.5), row->width - 1);
+    int first = pixel_from(row->place[i] - 1, row->width);
+    int last = pixel_up_to(row->place[i] + 1, row->width);
     for (int k = first; k <= last; k++)
         if (row->near[i] >= row->nearest[k]) {
             row->nearest[k] = row->near[i];
