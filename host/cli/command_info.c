@@ -58,6 +58,12 @@ static void print_scene(const struct pel_scene *scene) {
     if (pel_scene_bounds(scene, &bounds))
         printf("  %-12s %.6g, %.6g, %.6g to %.6g, %.6g, %.6g mm\n", "bounds", bounds.low[0],
                bounds.low[1], bounds.low[2], bounds.high[0], bounds.high[1], bounds.high[2]);
+    enum pel_skip skip;
+    char reason[PEL_SKIP_REASON_BYTES];
+    if (scene->render.skip != PEL_SKIP_AUTO)
+        printf("  %-12s %s, as asked for\n", "skipping", report_skip(scene->render.skip));
+    else if (pel_scene_choose_skip(scene, &skip, reason))
+        printf("  %-12s %s: %s\n", "skipping", report_skip(skip), reason);
     for (int i = 0; i < scene->instance_count; i++) {
         const struct pel_instance *instance = &scene->instances[i];
         printf("  %-12s %d '%s': %s%s\n", "volume", i, instance->name,
@@ -74,6 +80,12 @@ static json_t *scene_json(const struct pel_scene *scene) {
     json_object_set_new(object, "step", report_number(scene->render.step));
     json_object_set_new(object, "eye", report_numbers(scene->camera.eye, 3));
     json_object_set_new(object, "target", report_numbers(scene->camera.target, 3));
+    enum pel_skip skip = scene->render.skip;
+    char reason[PEL_SKIP_REASON_BYTES] = "";
+    if (skip != PEL_SKIP_AUTO || pel_scene_choose_skip(scene, &skip, reason))
+        json_object_set_new(object, "skip", json_string(report_skip(skip)));
+    if (reason[0])
+        json_object_set_new(object, "skip_reason", json_string(reason));
     json_t *list = json_array();
     for (int i = 0; i < scene->instance_count; i++) {
         const struct pel_instance *instance = &scene->instances[i];
