@@ -620,6 +620,8 @@ enum pel_debug {
     PEL_DEBUG_WORK_GROUP, // which work-group made the pixel, a colour each
     PEL_DEBUG_WORK_ITEM,  // which work-item of its group
     PEL_DEBUG_TIME,       // milliseconds that the pixel's tile took, each launched on its own
+    PEL_DEBUG_CLUSTERS,   // of skip bvh: clusters that the ray crosses; of blocks: blocks
+    PEL_DEBUG_NODES,      // and nodes of the hierarchy over them
 };
 
 #define PEL_SECONDARY_STEP_MIN 0.25

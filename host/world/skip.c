@@ -57,8 +57,10 @@ static double visible_share(const struct pel_scene *scene, const struct pel_worl
 
 void pel_skip_find_facts(struct pel_skip_facts *facts, const struct pel_scene *scene,
                          const struct pel_world *world, enum pel_reader reader) {
-    *facts =
-        (struct pel_skip_facts){.nothing = pel_model_skips_nothing(scene), .pool = world->pool};
+    *facts = (struct pel_skip_facts){.nothing = pel_model_skips_nothing(scene),
+                                     .counts = world->bytes.debug == DEBUG_CLUSTERS ||
+                                               world->bytes.debug == DEBUG_NODES,
+                                     .pool = world->pool};
     double seen = 0;
     for (int p = 0; p < world->bytes.part_count; p++) {
         // Slabs of one volume have its values together.
@@ -80,6 +82,10 @@ void pel_skip_find_facts(struct pel_skip_facts *facts, const struct pel_scene *s
 enum pel_skip pel_skip_choose(const struct pel_skip_facts *facts,
                               char reason[PEL_SKIP_REASON_BYTES]) {
     double percent = 100 * facts->visible;
+    if (facts->counts) {
+        snprintf(reason, PEL_SKIP_REASON_BYTES, "the debug view counts boxes of its hierarchy");
+        return PEL_SKIP_BVH;
+    }
     if (facts->nothing) {
         snprintf(reason, PEL_SKIP_REASON_BYTES, "with this model every sample counts");
         return PEL_SKIP_NONE;

@@ -17,6 +17,7 @@ static void test_rule(void **state) {
         {{.voxels = 4096, .visible = 0.1}, PEL_SKIP_DISTANCE, "10 % of the voxels"},
         {{.voxels = 1 << 24, .visible = 1, .pool = true}, PEL_SKIP_BLOCKS, "only bricks"},
         {{.voxels = 1 << 24, .visible = 0.1, .nothing = true}, PEL_SKIP_NONE, "every sample"},
+        {{.voxels = 1 << 24, .visible = 1, .counts = true}, PEL_SKIP_BVH, "the debug view"},
         {{.voxels = 1 << 24, .pool = true, .nothing = true}, PEL_SKIP_NONE, "every sample"},
     };
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
