@@ -305,9 +305,33 @@ static error_t parse_stereo_key(int key, const char *argument, struct render_opt
     return good ? 0 : PEL_ERROR_ARGUMENT;
 }
 
+// Options whose argument is the text of a key of the scene.
+static const struct {
+    int key;
+    const char *path;
+} text_keys[] = {
+    {KEY_MIX, "render.mixing"},
+    {KEY_MODEL, "render.model"},
+    {KEY_ORDER, "render.order"},
+    {KEY_SKIP, "render.skip"},
+    {KEY_PATTERN, "render.supersampling.pattern"},
+    {KEY_RECONSTRUCTION, "render.supersampling.filter"},
+    {KEY_DEBUG, "render.debug"},
+    {KEY_FILTER, "volumes.*.filter"},
+    {KEY_GRADIENT, "volumes.*.gradient"},
+    {KEY_TRANSFER, "volumes.*.transfer"},
+    {KEY_ALPHA, "output.alpha"},
+};
+
 // Keys of the scene; ARGP_ERR_UNKNOWN for the other options.
 static error_t parse_scene_key(int key, const char *argument, struct render_options *options) {
     bool good = true;
+    for (size_t n = 0; n < sizeof text_keys / sizeof *text_keys; n++) {
+        if (text_keys[n].key == key) {
+            overrides_add_text(&options->overrides, text_keys[n].path, argument);
+            return 0;
+        }
+    }
     switch (key) {
     case KEY_SIZE:
         good = add_size(options, argument);
@@ -324,15 +348,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_MASK:
         good = mask_option_add(&options->overrides, argument);
         break;
-    case KEY_MIX:
-        overrides_add_text(&options->overrides, "render.mixing", argument);
-        break;
     case KEY_STEP:
         overrides_add(&options->overrides, "render.step_mm", "null");
         good = add_number(options, "--step", "render.step", argument);
-        break;
-    case KEY_MODEL:
-        overrides_add_text(&options->overrides, "render.model", argument);
         break;
     case KEY_QUALITY:
         overrides_add(&options->overrides, "render.step", "null");
@@ -344,9 +362,6 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_PREINTEGRATION:
         overrides_add(&options->overrides, "render.preintegration", "true");
         break;
-    case KEY_ORDER:
-        overrides_add_text(&options->overrides, "render.order", argument);
-        break;
     case KEY_STEP_MM:
         overrides_add(&options->overrides, "render.step", "null");
         good = add_number(options, "--step-mm", "render.step_mm", argument);
@@ -357,17 +372,8 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_PHASE:
         good = add_number(options, "--phase", "render.phase", argument);
         break;
-    case KEY_SKIP:
-        overrides_add_text(&options->overrides, "render.skip", argument);
-        break;
     case KEY_SUPERSAMPLE:
         good = add_integer(options, "--supersample", "render.supersampling.n", argument);
-        break;
-    case KEY_PATTERN:
-        overrides_add_text(&options->overrides, "render.supersampling.pattern", argument);
-        break;
-    case KEY_RECONSTRUCTION:
-        overrides_add_text(&options->overrides, "render.supersampling.filter", argument);
         break;
     case KEY_ADAPTIVE:
         good = add_number(options, "--adaptive", "render.supersampling.adaptive", argument);
@@ -378,20 +384,8 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_JITTER:
         overrides_add(&options->overrides, "render.jitter", "true");
         break;
-    case KEY_DEBUG:
-        overrides_add_text(&options->overrides, "render.debug", argument);
-        break;
-    case KEY_FILTER:
-        overrides_add_text(&options->overrides, "volumes.*.filter", argument);
-        break;
-    case KEY_GRADIENT:
-        overrides_add_text(&options->overrides, "volumes.*.gradient", argument);
-        break;
     case KEY_DENSITY:
         good = add_number(options, "--density", "volumes.*.density", argument);
-        break;
-    case KEY_TRANSFER:
-        overrides_add_text(&options->overrides, "volumes.*.transfer", argument);
         break;
     case KEY_SHADING:
         good = add_switch(options, "--shading", "volumes.*.shading", argument);
@@ -407,9 +401,6 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_DEPTH:
         good = add_integer(options, "--depth", "output.depth", argument);
-        break;
-    case KEY_ALPHA:
-        overrides_add_text(&options->overrides, "output.alpha", argument);
         break;
     case KEY_FPS:
         good = add_number(options, "--fps", "animation.fps", argument);

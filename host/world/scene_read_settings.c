@@ -13,28 +13,14 @@
 
 enum { PICTURE_MAX = 32768 };
 
-static const char *const render_keys[] = {"comment",
-                                          "size",
-                                          "mixing",
-                                          "step",
-                                          "step_mm",
-                                          "phase",
-                                          "termination",
-                                          "origin",
-                                          "skip",
-                                          "bricks",
-                                          "supersampling",
-                                          "jitter",
-                                          "debug",
-                                          "model",
-                                          "order",
-                                          "emission_scale",
-                                          "preintegration",
-                                          "quality",
-                                          "region",
-                                          "shadows",
-                                          "ambient_occlusion",
-                                          NULL};
+static const char *const render_keys[] = {"comment",        "size",           "mixing",
+                                          "step",           "step_mm",        "phase",
+                                          "termination",    "origin",         "skip",
+                                          "bricks",         "supersampling",  "jitter",
+                                          "debug",          "model",          "order",
+                                          "emission_scale", "preintegration", "quality",
+                                          "region",         "shadows",        "ambient_occlusion",
+                                          "filter",         "gradient",       NULL};
 static const char *const brick_keys[] = {"comment", "size", "cluster", "walk",
                                          "cull",    "pool", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
