@@ -36,6 +36,7 @@ enum {
     KEY_DEBUG,
     KEY_DENSITY,
     KEY_SHADING,
+    KEY_LOD,
     KEY_SHADOWS,
     KEY_AMBIENT_OCCLUSION,
     KEY_BACKGROUND,
@@ -147,6 +148,8 @@ static const struct argp_option argp_options[] = {
      0},
     {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh|blocks", 0,
      "How empty space is skipped; the picture is the same with each", 0},
+    {"lod", KEY_LOD, "off|auto|N", 0,
+     "Show volumes coarser: far ones as coarse as a pixel, or all at level N", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,
      "Where they go through the pixel", 0},
@@ -302,6 +305,34 @@ static error_t parse_stereo_key(int key, const char *argument, struct render_opt
     return good ? 0 : PEL_ERROR_ARGUMENT;
 }
 
+// Options whose words are those of a key of the scene.
+static const struct {
+    int key;
+    const char *path;
+} words[] = {
+    {KEY_MIX, "render.mixing"},
+    {KEY_MODEL, "render.model"},
+    {KEY_ORDER, "render.order"},
+    {KEY_SKIP, "render.skip"},
+    {KEY_PATTERN, "render.supersampling.pattern"},
+    {KEY_RECONSTRUCTION, "render.supersampling.filter"},
+    {KEY_DEBUG, "render.debug"},
+    {KEY_FILTER, "volumes.*.filter"},
+    {KEY_GRADIENT, "volumes.*.gradient"},
+    {KEY_TRANSFER, "volumes.*.transfer"},
+    {KEY_ALPHA, "output.alpha"},
+};
+
+static bool add_word(struct render_options *options, int key, const char *text) {
+    for (size_t n = 0; n < sizeof words / sizeof *words; n++) {
+        if (words[n].key != key)
+            continue;
+        overrides_add_text(&options->overrides, words[n].path, text);
+        return true;
+    }
+    return false;
+}
+
 // Keys of the scene; ARGP_ERR_UNKNOWN for the other options.
 static error_t parse_scene_key(int key, const char *argument, struct render_options *options) {
     bool good = true;
@@ -321,15 +352,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_MASK:
         good = mask_option_add(&options->overrides, argument);
         break;
-    case KEY_MIX:
-        overrides_add_text(&options->overrides, "render.mixing", argument);
-        break;
     case KEY_STEP:
         overrides_add(&options->overrides, "render.step_mm", "null");
         good = add_number(options, "--step", "render.step", argument);
-        break;
-    case KEY_MODEL:
-        overrides_add_text(&options->overrides, "render.model", argument);
         break;
     case KEY_QUALITY:
         overrides_add(&options->overrides, "render.step", "null");
@@ -341,9 +366,6 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_PREINTEGRATION:
         overrides_add(&options->overrides, "render.preintegration", "true");
         break;
-    case KEY_ORDER:
-        overrides_add_text(&options->overrides, "render.order", argument);
-        break;
     case KEY_STEP_MM:
         overrides_add(&options->overrides, "render.step", "null");
         good = add_number(options, "--step-mm", "render.step_mm", argument);
@@ -354,17 +376,8 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_PHASE:
         good = add_number(options, "--phase", "render.phase", argument);
         break;
-    case KEY_SKIP:
-        overrides_add_text(&options->overrides, "render.skip", argument);
-        break;
     case KEY_SUPERSAMPLE:
         good = add_integer(options, "--supersample", "render.supersampling.n", argument);
-        break;
-    case KEY_PATTERN:
-        overrides_add_text(&options->overrides, "render.supersampling.pattern", argument);
-        break;
-    case KEY_RECONSTRUCTION:
-        overrides_add_text(&options->overrides, "render.supersampling.filter", argument);
         break;
     case KEY_ADAPTIVE:
         good = add_number(options, "--adaptive", "render.supersampling.adaptive", argument);
@@ -375,23 +388,14 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_JITTER:
         overrides_add(&options->overrides, "render.jitter", "true");
         break;
-    case KEY_DEBUG:
-        overrides_add_text(&options->overrides, "render.debug", argument);
-        break;
-    case KEY_FILTER:
-        overrides_add_text(&options->overrides, "volumes.*.filter", argument);
-        break;
-    case KEY_GRADIENT:
-        overrides_add_text(&options->overrides, "volumes.*.gradient", argument);
-        break;
     case KEY_DENSITY:
         good = add_number(options, "--density", "volumes.*.density", argument);
         break;
-    case KEY_TRANSFER:
-        overrides_add_text(&options->overrides, "volumes.*.transfer", argument);
-        break;
     case KEY_SHADING:
         good = add_switch(options, "--shading", "volumes.*.shading", argument);
+        break;
+    case KEY_LOD:
+        overrides_add(&options->overrides, "render.lod", argument);
         break;
     case KEY_SHADOWS:
         good = add_switch(options, "--shadows", "render.shadows", argument);
@@ -405,9 +409,6 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_DEPTH:
         good = add_integer(options, "--depth", "output.depth", argument);
         break;
-    case KEY_ALPHA:
-        overrides_add_text(&options->overrides, "output.alpha", argument);
-        break;
     case KEY_FPS:
         good = add_number(options, "--fps", "animation.fps", argument);
         break;
@@ -415,7 +416,7 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         good = add_set(options, argument);
         break;
     default:
-        return parse_stereo_key(key, argument, options);
+        return add_word(options, key, argument) ? 0 : parse_stereo_key(key, argument, options);
     }
     return good ? 0 : PEL_ERROR_ARGUMENT;
 }
