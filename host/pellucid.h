@@ -423,6 +423,10 @@ struct pel_surface {
     bool coloured;  // it has a colour of its own; otherwise the transfer function's
     double rgb[3];  // straight, 0..1
 };
+// The names of the optical models, "default" first, in the order of the enum; the list ends with
+// NULL.
+PEL_API const char *const *pel_model_names(void);
+
 // The names of the kinds of mixing in the order of the enum; the list ends with NULL.
 PEL_API const char *const *pel_mixing_names(void);
 
@@ -507,6 +511,11 @@ struct pel_mask {
     struct pel_value_range ranges[PEL_MASK_RANGE_MAX];
     bool inverted;
 };
+
+// The values of a mask as text: numbers, ranges such as 3..5, and >=0.5, with commas between them.
+// Reading fails (ARGUMENT) and leaves the mask alone when the text is none; writing cuts it.
+PEL_API bool pel_mask_read_values(struct pel_mask *mask, const char *text);
+PEL_API void pel_mask_write_values(const struct pel_mask *mask, char *text, size_t bytes);
 
 // One volume as it stands in a scene. Several instances may show one volume.
 struct pel_instance {
@@ -920,6 +929,7 @@ struct pel_renderer_options {
     int work_group;                // work-items per work-group; 0 = as the device likes it
     int work_group_rows;           // packets of rays above each other in one; 0 = 1
     uint64_t max_allocation_bytes; // lowers the device's own limit (for tests); 0 = the device's
+    int compute_units;             // of a device that can be divided; 0 = all
 };
 
 struct pel_image {

@@ -49,6 +49,7 @@ enum {
     KEY_READER,
     KEY_LANES,
     KEY_WORK_GROUP,
+    KEY_COMPUTE_UNITS,
     KEY_DEVICE,
     KEY_DEPTH,
     KEY_ALPHA,
@@ -167,6 +168,8 @@ static const struct argp_option argp_options[] = {
     {"reader", KEY_READER, "auto|buffer|image", 0, "How kernels read voxels", 0},
     {"lanes", KEY_LANES, "1|4|8|16", 0, "Rays per work-item", 0},
     {"work-group", KEY_WORK_GROUP, "N", 0, "Work-items per work-group", 0},
+    {"compute-units", KEY_COMPUTE_UNITS, "N", 0, "Of a device that can be divided, only so many",
+     0},
     {0, 0, NULL, 0, "Everything else:", 6},
     {"set", KEY_SET, "KEY=VALUE", 0,
      "Set any key of the scene, such as volumes.0.density=0.2; may be repeated", 0},
@@ -305,11 +308,11 @@ static error_t parse_stereo_key(int key, const char *argument, struct render_opt
     return good ? 0 : PEL_ERROR_ARGUMENT;
 }
 
-// Options whose words are those of a key of the scene.
+// Options whose argument is the text of a key of the scene.
 static const struct {
     int key;
     const char *path;
-} words[] = {
+} text_keys[] = {
     {KEY_MIX, "render.mixing"},
     {KEY_MODEL, "render.model"},
     {KEY_ORDER, "render.order"},
@@ -323,19 +326,15 @@ static const struct {
     {KEY_ALPHA, "output.alpha"},
 };
 
-static bool add_word(struct render_options *options, int key, const char *text) {
-    for (size_t n = 0; n < sizeof words / sizeof *words; n++) {
-        if (words[n].key != key)
-            continue;
-        overrides_add_text(&options->overrides, words[n].path, text);
-        return true;
-    }
-    return false;
-}
-
 // Keys of the scene; ARGP_ERR_UNKNOWN for the other options.
 static error_t parse_scene_key(int key, const char *argument, struct render_options *options) {
     bool good = true;
+    for (size_t n = 0; n < sizeof text_keys / sizeof *text_keys; n++) {
+        if (text_keys[n].key == key) {
+            overrides_add_text(&options->overrides, text_keys[n].path, argument);
+            return 0;
+        }
+    }
     switch (key) {
     case KEY_SIZE:
         good = add_size(options, argument);
@@ -416,7 +415,7 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         good = add_set(options, argument);
         break;
     default:
-        return add_word(options, key, argument) ? 0 : parse_stereo_key(key, argument, options);
+        return parse_stereo_key(key, argument, options);
     }
     return good ? 0 : PEL_ERROR_ARGUMENT;
 }
@@ -455,6 +454,9 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_WORK_GROUP:
         good = cli_integer("--work-group", argument, 1, &options->renderer.work_group);
+        break;
+    case KEY_COMPUTE_UNITS:
+        good = cli_integer("--compute-units", argument, 1, &options->renderer.compute_units);
         break;
     case ARGP_KEY_ARGS:
         options->inputs = state->argv + state->next;

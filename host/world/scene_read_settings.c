@@ -34,6 +34,8 @@ static const char *const render_keys[] = {"comment",
                                           "region",
                                           "shadows",
                                           "ambient_occlusion",
+                                          "filter",
+                                          "gradient",
                                           "lod",
                                           NULL};
 static const char *const brick_keys[] = {"comment", "size", "cluster", "walk",

@@ -67,6 +67,8 @@ static void test_far(void **state) {
     struct pel_scene *scene = scene_of(0, 72);
     for (int k = 0; k < 2; k++)
         scene->instances[k].transform.m[2][3] = -500;
+    scene->render.width = 24;
+    scene->render.height = 16;
     scene->camera.fov_deg = 4;
     scene->render.step = 0.125;
     struct pel_render_statistics full, coarse, again;

@@ -65,6 +65,7 @@ static const char *const rich[] = {
     "   'termination': 0.8, 'origin': 'bounds', 'skip': 'blocks', 'bricks': {'size': 16, "
     "'cluster': "
     "false, 'walk': false, 'cull': false, 'pool': 'on'}, 'jitter': true, 'debug': 'spans', "
+    "'filter': 'catmull-rom', 'gradient': 'analytic', "
     "'model': 'mip', 'order': 'back-to-front', 'emission_scale': 0.3, 'preintegration': true,"
     "   'supersampling': {'n': 2, 'pattern': 'n-rooks', 'filter': 'gaussian', 'seed': 3,"
     "   'adaptive': 0.1}, 'shadows': {'length': 50, 'step': 3, 'strength': 0.7},"
@@ -176,12 +177,23 @@ static void test_round_trip(void **state) {
 // ---- Every key ---------------------------------------------------------------------------------
 
 // Keys that say what other keys say: what they mean is written by those.
-static const char *const other_words[] = {
-    "comment",         "$schema",         "camera.view",
-    "camera.fit",      "volume.palette",  "volume.opacity_unit",
-    "render.quality",  "transfer.preset", "transfer.range",
-    "transfer.colors", "transfer.scale",  "wall.columns",
-    "wall.rows",       "wall.bezel",      NULL};
+static const char *const other_words[] = {"comment",
+                                          "$schema",
+                                          "camera.view",
+                                          "camera.fit",
+                                          "volume.palette",
+                                          "volume.opacity_unit",
+                                          "render.quality",
+                                          "render.filter",
+                                          "render.gradient",
+                                          "transfer.preset",
+                                          "transfer.range",
+                                          "transfer.colors",
+                                          "transfer.scale",
+                                          "wall.columns",
+                                          "wall.rows",
+                                          "wall.bezel",
+                                          NULL};
 
 // Objects whose keys are ways to say one thing.
 static const char *const other_ways[] = {"transform", NULL};
