@@ -652,6 +652,16 @@ struct pel_ambient_occlusion {
     double strength;  // share of the light that is taken, up to 1; 0 = 1
 };
 
+// Whether volumes are shown coarser than they are, where the picture does not show the difference
+// (docs/picture.md, "Level of detail").
+enum pel_lod {
+    PEL_LOD_OFF,   // as they are
+    PEL_LOD_AUTO,  // each at the level at which its voxels are about as large as a pixel
+    PEL_LOD_LEVEL, // all at `lod_level`
+};
+
+#define PEL_LOD_LEVEL_MAX 15
+
 struct pel_render_settings {
     int width, height;      // pixels
     int region[4];          // the part of it that is rendered: left and top edge, width and height
@@ -673,6 +683,8 @@ struct pel_render_settings {
     enum pel_debug debug; //
     struct pel_shadows shadows;
     struct pel_ambient_occlusion ambient_occlusion; // its directions follow the seed
+    enum pel_lod lod; // labels, and volumes of filter nearest, stay as they are
+    int lod_level;    // 0..PEL_LOD_LEVEL_MAX: voxels of 2^level times their shortest side
 };
 
 #define PEL_WALL_MAX 32
@@ -937,6 +949,13 @@ struct pel_kernel_info {
     uint64_t private_bytes, local_bytes; // of each work-item, and of each work-group
 };
 
+// The levels of detail of one frame.
+struct pel_lod_statistics {
+    int levels[PEL_VOLUME_MAX]; // of each instance; 0: its volume as it is
+    uint64_t bytes;             // of all voxels that are shown; 0 when lod is off
+    double ms;                  // for making levels that were not there yet
+};
+
 // What one frame took.
 struct pel_render_statistics {
     char device[128], driver[128];
@@ -955,6 +974,7 @@ struct pel_render_statistics {
     struct pel_brick_statistics bricks;
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
     struct pel_debug_range debug; // of the scene's debug view, zeros without one
+    struct pel_lod_statistics lod;
     // Of two eyes; all of the above is then their sum.
     struct {
         double separation_mm, convergence_mm; // as they were used
