@@ -36,6 +36,7 @@ enum {
     KEY_DEBUG,
     KEY_DENSITY,
     KEY_SHADING,
+    KEY_LOD,
     KEY_SHADOWS,
     KEY_AMBIENT_OCCLUSION,
     KEY_BACKGROUND,
@@ -48,6 +49,7 @@ enum {
     KEY_READER,
     KEY_LANES,
     KEY_WORK_GROUP,
+    KEY_COMPUTE_UNITS,
     KEY_DEVICE,
     KEY_DEPTH,
     KEY_ALPHA,
@@ -147,6 +149,8 @@ static const struct argp_option argp_options[] = {
      0},
     {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh|blocks", 0,
      "How empty space is skipped; the picture is the same with each", 0},
+    {"lod", KEY_LOD, "off|auto|N", 0,
+     "Show volumes coarser: far ones as coarse as a pixel, or all at level N", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,
      "Where they go through the pixel", 0},
@@ -156,7 +160,7 @@ static const struct argp_option argp_options[] = {
      "N x N rays only where neighbouring pixels differ by more than X, 0 to 1", 0},
     {"seed", KEY_SEED, "N", 0, "Seed of all random patterns", 0},
     {"jitter", KEY_JITTER, NULL, 0, "A random phase for every ray", 0},
-    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time", 0,
+    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time|clusters|nodes", 0,
      "Show a number of each pixel's ray in place of its light, as a heat map", 0},
     {0, 0, NULL, 0, "The device:", 5},
     {"device", KEY_DEVICE, "D", 0,
@@ -164,6 +168,8 @@ static const struct argp_option argp_options[] = {
     {"reader", KEY_READER, "auto|buffer|image", 0, "How kernels read voxels", 0},
     {"lanes", KEY_LANES, "1|4|8|16", 0, "Rays per work-item", 0},
     {"work-group", KEY_WORK_GROUP, "N", 0, "Work-items per work-group", 0},
+    {"compute-units", KEY_COMPUTE_UNITS, "N", 0, "Of a device that can be divided, only so many",
+     0},
     {0, 0, NULL, 0, "Everything else:", 6},
     {"set", KEY_SET, "KEY=VALUE", 0,
      "Set any key of the scene, such as volumes.0.density=0.2; may be repeated", 0},
@@ -302,9 +308,33 @@ static error_t parse_stereo_key(int key, const char *argument, struct render_opt
     return good ? 0 : PEL_ERROR_ARGUMENT;
 }
 
+// Options whose argument is the text of a key of the scene.
+static const struct {
+    int key;
+    const char *path;
+} text_keys[] = {
+    {KEY_MIX, "render.mixing"},
+    {KEY_MODEL, "render.model"},
+    {KEY_ORDER, "render.order"},
+    {KEY_SKIP, "render.skip"},
+    {KEY_PATTERN, "render.supersampling.pattern"},
+    {KEY_RECONSTRUCTION, "render.supersampling.filter"},
+    {KEY_DEBUG, "render.debug"},
+    {KEY_FILTER, "volumes.*.filter"},
+    {KEY_GRADIENT, "volumes.*.gradient"},
+    {KEY_TRANSFER, "volumes.*.transfer"},
+    {KEY_ALPHA, "output.alpha"},
+};
+
 // Keys of the scene; ARGP_ERR_UNKNOWN for the other options.
 static error_t parse_scene_key(int key, const char *argument, struct render_options *options) {
     bool good = true;
+    for (size_t n = 0; n < sizeof text_keys / sizeof *text_keys; n++) {
+        if (text_keys[n].key == key) {
+            overrides_add_text(&options->overrides, text_keys[n].path, argument);
+            return 0;
+        }
+    }
     switch (key) {
     case KEY_SIZE:
         good = add_size(options, argument);
@@ -321,15 +351,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_MASK:
         good = mask_option_add(&options->overrides, argument);
         break;
-    case KEY_MIX:
-        overrides_add_text(&options->overrides, "render.mixing", argument);
-        break;
     case KEY_STEP:
         overrides_add(&options->overrides, "render.step_mm", "null");
         good = add_number(options, "--step", "render.step", argument);
-        break;
-    case KEY_MODEL:
-        overrides_add_text(&options->overrides, "render.model", argument);
         break;
     case KEY_QUALITY:
         overrides_add(&options->overrides, "render.step", "null");
@@ -341,9 +365,6 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_PREINTEGRATION:
         overrides_add(&options->overrides, "render.preintegration", "true");
         break;
-    case KEY_ORDER:
-        overrides_add_text(&options->overrides, "render.order", argument);
-        break;
     case KEY_STEP_MM:
         overrides_add(&options->overrides, "render.step", "null");
         good = add_number(options, "--step-mm", "render.step_mm", argument);
@@ -354,17 +375,8 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_PHASE:
         good = add_number(options, "--phase", "render.phase", argument);
         break;
-    case KEY_SKIP:
-        overrides_add_text(&options->overrides, "render.skip", argument);
-        break;
     case KEY_SUPERSAMPLE:
         good = add_integer(options, "--supersample", "render.supersampling.n", argument);
-        break;
-    case KEY_PATTERN:
-        overrides_add_text(&options->overrides, "render.supersampling.pattern", argument);
-        break;
-    case KEY_RECONSTRUCTION:
-        overrides_add_text(&options->overrides, "render.supersampling.filter", argument);
         break;
     case KEY_ADAPTIVE:
         good = add_number(options, "--adaptive", "render.supersampling.adaptive", argument);
@@ -375,23 +387,14 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_JITTER:
         overrides_add(&options->overrides, "render.jitter", "true");
         break;
-    case KEY_DEBUG:
-        overrides_add_text(&options->overrides, "render.debug", argument);
-        break;
-    case KEY_FILTER:
-        overrides_add_text(&options->overrides, "volumes.*.filter", argument);
-        break;
-    case KEY_GRADIENT:
-        overrides_add_text(&options->overrides, "volumes.*.gradient", argument);
-        break;
     case KEY_DENSITY:
         good = add_number(options, "--density", "volumes.*.density", argument);
         break;
-    case KEY_TRANSFER:
-        overrides_add_text(&options->overrides, "volumes.*.transfer", argument);
-        break;
     case KEY_SHADING:
         good = add_switch(options, "--shading", "volumes.*.shading", argument);
+        break;
+    case KEY_LOD:
+        overrides_add(&options->overrides, "render.lod", argument);
         break;
     case KEY_SHADOWS:
         good = add_switch(options, "--shadows", "render.shadows", argument);
@@ -404,9 +407,6 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_DEPTH:
         good = add_integer(options, "--depth", "output.depth", argument);
-        break;
-    case KEY_ALPHA:
-        overrides_add_text(&options->overrides, "output.alpha", argument);
         break;
     case KEY_FPS:
         good = add_number(options, "--fps", "animation.fps", argument);
@@ -454,6 +454,9 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_WORK_GROUP:
         good = cli_integer("--work-group", argument, 1, &options->renderer.work_group);
+        break;
+    case KEY_COMPUTE_UNITS:
+        good = cli_integer("--compute-units", argument, 1, &options->renderer.compute_units);
         break;
     case ARGP_KEY_ARGS:
         options->inputs = state->argv + state->next;

@@ -96,6 +96,10 @@ struct pel_state {
     bool slices_windowed; // values as grey
     bool slices_old;      // slices have to be rendered anew
 
+    // The values of the selected volume's mask, as they are typed.
+    char mask_text[128];
+    struct pel_mask mask_typed; // the mask that they were written from
+
     // The plot of the transfer function.
     int opacity_point, colour_point; // taken last
     bool plot_held;                  // something is dragged on it
