@@ -9,6 +9,7 @@
 #define SHADE_CL
 
 #include "gradient.cl"
+#include "power.cl"
 #include "ray.cl"
 #include "sample.cl"
 
@@ -27,7 +28,7 @@ INLINE real dot_lanes(const struct vector *a, const struct vector *b) {
 
 // Scales a vector to length 1; nothing stays nothing.
 INLINE void make_unit(struct vector *v) {
-    const real scale = 1.0f / sqrt(dot_lanes(v, v) + 1e-30f);
+    const real scale = fast_rsqrt(dot_lanes(v, v) + 1e-30f);
     v->x *= scale;
     v->y *= scale;
     v->z *= scale;
@@ -40,9 +41,13 @@ INLINE struct vector find_normal(MEMORY_PARAMETERS, __constant struct part *part
                                  real y, real z, real *slope) {
     real difference[3];
     find_differences(MEMORY_ARGUMENTS, part, raw, x, y, z, difference);
-    // The squares of what floats can hold could be infinite.
-    for (int axis = 0; axis < 3; axis++)
-        difference[axis] = clamp(difference[axis] * part->normal_scale, -1e9f, 1e9f);
+    for (int axis = 0; axis < 3; axis++) {
+        difference[axis] *= part->normal_scale;
+#if VOXELS & VOXELS_F32
+        // The squares of what floats can hold could be infinite.
+        difference[axis] = clamp(difference[axis], -1e9f, 1e9f);
+#endif
+    }
     __constant const float4 *rows = part->voxel_from_world;
     struct vector normal;
     normal.x = rows[0].x * difference[0] + rows[1].x * difference[1] + rows[2].x * difference[2];
@@ -50,8 +55,9 @@ INLINE struct vector find_normal(MEMORY_PARAMETERS, __constant struct part *part
     normal.z = rows[0].z * difference[0] + rows[1].z * difference[1] + rows[2].z * difference[2];
     const real square = dot_lanes(&normal, &normal);
     *slope = sqrt(square);
-    const real scale = part->spacing_mm / sqrt(square * (part->spacing_mm * part->spacing_mm) +
-                                               SHADE_SOFTNESS * SHADE_SOFTNESS);
+    const real scale =
+        part->spacing_mm * fast_rsqrt(square * (part->spacing_mm * part->spacing_mm) +
+                                      SHADE_SOFTNESS * SHADE_SOFTNESS);
     normal.x *= scale;
     normal.y *= scale;
     normal.z *= scale;
@@ -75,13 +81,19 @@ INLINE struct vector towards_lamp(__constant struct lamp *lamp, const struct ray
 }
 
 // The cosine that the highlight is a power of.
-INLINE real highlight_cosine(__constant struct part *part, const struct vector *normal,
-                             const struct vector *l, const struct vector *v) {
+INLINE real highlight_cosine(__constant struct part *part, __constant struct lamp *lamp,
+                             const struct vector *normal, const struct vector *l,
+                             const struct vector *v) {
     if (part->shading == SHADING_PHONG) // between the mirrored light and the viewer
         return 2.0f * dot_lanes(normal, l) * dot_lanes(normal, v) -
                dot_lanes(normal, normal) * dot_lanes(l, v);
-    struct vector half_way = {l->x + v->x, l->y + v->y, l->z + v->z};
-    make_unit(&half_way);
+    struct vector half_way = *v;
+    if (lamp->kind != LAMP_HEADLIGHT) {
+        half_way.x += l->x;
+        half_way.y += l->y;
+        half_way.z += l->z;
+        make_unit(&half_way);
+    }
     const real cosine = dot_lanes(normal, &half_way);
     return part->one_sided ? cosine : fabs(cosine);
 }
@@ -99,9 +111,9 @@ INLINE void light_up(__constant struct world *world, __constant struct part *par
         const struct vector l = towards_lamp(lamp, ray, t);
         const real facing = dot_lanes(normal, &l);
         const real lit = part->one_sided ? AT_LEAST(facing, zero) : fabs(facing);
-        const real cosine = highlight_cosine(part, normal, &l, &v);
+        const real cosine = highlight_cosine(part, lamp, normal, &l, &v);
         // The cosine's floor makes a power of nothing as good as nothing.
-        real shine = exp2(material.w * log2(AT_LEAST(cosine, (real)(1e-30f))));
+        real shine = power(AT_LEAST(cosine, (real)(1e-30f)), (real)(material.w));
         if (part->one_sided)
             shine = CHOOSE(zero, shine, MASK(facing > 0.0f));
         const real diffuse = material.y * lit, specular = material.z * shine;

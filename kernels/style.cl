@@ -31,7 +31,7 @@ INLINE real style_factor(__constant struct part *part, const struct ray *ray,
     const real length = sqrt(dot_lanes(normal, normal));
     const real facing = fabs(normal->x * ray->dx + normal->y * ray->dy + normal->z * ray->dz);
     const real away = AT_LEAST(length - facing, (real)(1e-30f));
-    return factor * (silhouette.x + silhouette.y * exp2(silhouette.z * log2(away)));
+    return factor * (silhouette.x + silhouette.y * power(away, (real)(silhouette.z)));
 }
 
 // A strength for extinction multiplied by a factor.
@@ -39,7 +39,7 @@ INLINE real scale_strength(real strength, real factor) {
 #if STRENGTH_DEPTH
     return strength * factor;
 #else
-    return 1.0f - exp2(factor * log2(AT_LEAST(1.0f - strength, (real)(0x1p-24f))));
+    return 1.0f - power(AT_LEAST(1.0f - strength, (real)(0x1p-24f)), factor);
 #endif
 }
 #endif
