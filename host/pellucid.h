@@ -423,6 +423,10 @@ struct pel_surface {
     bool coloured;  // it has a colour of its own; otherwise the transfer function's
     double rgb[3];  // straight, 0..1
 };
+// The names of the optical models, "default" first, in the order of the enum; the list ends with
+// NULL.
+PEL_API const char *const *pel_model_names(void);
+
 // The names of the kinds of mixing in the order of the enum; the list ends with NULL.
 PEL_API const char *const *pel_mixing_names(void);
 
@@ -508,6 +512,11 @@ struct pel_mask {
     bool inverted;
 };
 
+// The values of a mask as text: numbers, ranges such as 3..5, and >=0.5, with commas between them.
+// Reading fails (ARGUMENT) and leaves the mask alone when the text is none; writing cuts it.
+PEL_API bool pel_mask_read_values(struct pel_mask *mask, const char *text);
+PEL_API void pel_mask_write_values(const struct pel_mask *mask, char *text, size_t bytes);
+
 // One volume as it stands in a scene. Several instances may show one volume.
 struct pel_instance {
     char name[64];
@@ -544,7 +553,7 @@ enum pel_light_kind {
     PEL_LIGHT_POINT,       // shines from `position`, equally bright at every distance
 };
 
-// What shaded volumes are lit by. Nothing casts a shadow.
+// What shaded volumes are lit by. Shadows are a setting of the picture (pel_shadows).
 struct pel_light {
     enum pel_light_kind kind;
     double direction[3], position[3]; // in the world; a direction has any length but zero
@@ -620,6 +629,29 @@ enum pel_debug {
     PEL_DEBUG_TIME,       // milliseconds that the pixel's tile took, each launched on its own
 };
 
+#define PEL_SECONDARY_STEP_MIN 0.25
+#define PEL_SECONDARY_STEP_MAX 64.0
+
+// Light on shaded volumes has come through all volumes on its way (docs/picture.md, "Shadows and
+// ambient occlusion"). Costs a ray for every light of every sample: for stills.
+struct pel_shadows {
+    bool on;
+    double length_mm; // how far away what casts a shadow may be; 0 = anywhere
+    double step;      // of these rays, in steps of the picture; 0 = 2
+    double strength;  // share of the light that shadows take, up to 1; 0 = 1
+};
+
+#define PEL_OCCLUSION_DIRECTION_MAX 64
+
+// Shaded volumes are darker where much of what is around is hidden by something near.
+struct pel_ambient_occlusion {
+    bool on;
+    int directions;   // rays from every sample, up to PEL_OCCLUSION_DIRECTION_MAX; 0 = 16
+    double radius_mm; // how far they look; 0 = a tenth of the diagonal of all volumes
+    double step;      // of these rays, in steps of the picture; 0 = 2
+    double strength;  // share of the light that is taken, up to 1; 0 = 1
+};
+
 struct pel_render_settings {
     int width, height;      // pixels
     int region[4];          // the part of it that is rendered: left and top edge, width and height
@@ -639,6 +671,8 @@ struct pel_render_settings {
     struct pel_supersampling supersampling;
     bool jitter;          // every ray has a random phase of its own in place of `phase`
     enum pel_debug debug; //
+    struct pel_shadows shadows;
+    struct pel_ambient_occlusion ambient_occlusion; // its directions follow the seed
 };
 
 #define PEL_WALL_MAX 32
@@ -744,6 +778,17 @@ struct pel_keyframe {
 // scene then stays as it was.
 PEL_API bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
                                      int count, double fps);
+
+// Reads back the viewpoints of the way of the scene's camera, as pel_scene_set_keyframes or a file
+// put them there: `most` of them at most. Returns how many there are; 0 when the camera moves by
+// other tracks (orbits, named views, single members), or not at all.
+PEL_API int pel_scene_keyframes(const struct pel_scene *scene, struct pel_keyframe *keyframes,
+                                int most);
+
+// What was changed in the scene since it was loaded becomes what its animation acts upon, so that
+// pel_scene_set_frame does not lose it. Fails like pel_scene_set_keyframes, with the scene as it
+// was.
+PEL_API bool pel_scene_rebase(struct pel_scene *scene);
 
 // An empty scene with every default, to be filled by a program. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_create(void);
@@ -872,6 +917,7 @@ struct pel_renderer_options {
     int work_group;                // work-items per work-group; 0 = as the device likes it
     int work_group_rows;           // packets of rays above each other in one; 0 = 1
     uint64_t max_allocation_bytes; // lowers the device's own limit (for tests); 0 = the device's
+    int compute_units;             // of a device that can be divided; 0 = all
 };
 
 struct pel_image {

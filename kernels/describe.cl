@@ -117,6 +117,14 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, lamp_count);
     *out++ = OFFSET(struct world, debug);
     *out++ = OFFSET(struct world, medium_count);
+    *out++ = OFFSET(struct world, shadow_step_mm);
+    *out++ = OFFSET(struct world, shadow_length_mm);
+    *out++ = OFFSET(struct world, shadow_strength);
+    *out++ = OFFSET(struct world, occlusion_step_mm);
+    *out++ = OFFSET(struct world, occlusion_radius_mm);
+    *out++ = OFFSET(struct world, occlusion_strength);
+    *out++ = OFFSET(struct world, occlusion_count);
+    *out++ = OFFSET(struct world, directions);
     *out++ = OFFSET(struct world, lamps);
     *out++ = OFFSET(struct world, parts);
     *out++ = OFFSET(struct world, cuts);

@@ -84,21 +84,28 @@ INLINE void mix_add(struct mixture *mixture, struct light *light, __constant str
 #endif
 }
 
+// The optical depth of one step of the whole mixture.
+INLINE real mix_depth(__constant struct world *world, const struct mixture *mixture) {
+#if MIXING == MIXING_INTERSECTION
+    // A part that is not there, or not visible, has no depth at all.
+    return CHOOSE((real)(0.0f), mixture->depth, MASK(mixture->count == world->medium_count));
+#elif MIXING == MIXING_DIFFERENCE
+    return fmax(mixture->depth, 0.0f);
+#else
+    return mixture->depth;
+#endif
+}
+
 // Puts what the mixture makes of its parts behind what has been gathered.
 INLINE void mix_end(__constant struct world *world, const struct mixture *mixture,
                     struct light *light) {
 #if STRENGTH_DEPTH
-    real depth = mixture->depth, share = (real)(1.0f);
+    real share = (real)(1.0f);
 #if !MIXING_WINNER
     share = 1.0f / fmax(mixture->weight, FLT_MIN);
 #endif
-#if MIXING == MIXING_INTERSECTION
-    // A part that is not there, or not visible, has no depth at all.
-    depth = CHOOSE((real)(0.0f), depth, MASK(mixture->count == world->medium_count));
-#elif MIXING == MIXING_DIFFERENCE
-    depth = fmax(depth, 0.0f);
-#endif
-    light_add(light, mixture->r * share, mixture->g * share, mixture->b * share, 1.0f - exp(-depth));
+    light_add(light, mixture->r * share, mixture->g * share, mixture->b * share,
+              1.0f - exp(-mix_depth(world, mixture)));
 #endif
 }
 

@@ -42,7 +42,7 @@ INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table
     mask seen = (mask)(0);
 #if MODELS & MODELS_ISO
     if (spot.part->model == MODEL_ISO) {
-        seen = gather_surfaces(world, MEMORY_ARGUMENTS, gathered, crossing, &spot, sample->raw);
+        seen = gather_surfaces(FRAME_ARGUMENTS, MEMORY_ARGUMENTS, gathered, crossing, &spot, sample->raw);
         gathered->raw[spot.c] = CHOOSE(gathered->raw[spot.c], sample->raw, spot.present);
         gathered->at[spot.c] = CHOOSE(gathered->at[spot.c], spot.i, spot.present);
         leap_segments(cells, &spot);
@@ -63,8 +63,8 @@ INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table
 #if SHADING
         if (spot.part->shading != SHADING_NONE) {
             const real t = TO_REAL(cursor_clamp(spot.cursor, spot.i));
-            shade_between(world, MEMORY_ARGUMENTS, crossing, &spot, t,
-                          CHOOSE((real)(0.0f), sample->raw, spot.present), &r, &g, &b);
+            shade_between(FRAME_ARGUMENTS, MEMORY_ARGUMENTS, crossing, &spot, t,
+                          CHOOSE((real)(0.0f), sample->raw, spot.present), seen, &r, &g, &b);
         }
 #endif
         mix_add(mixture, &gathered->media, spot.part, r, g, b, strength);

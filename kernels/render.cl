@@ -151,9 +151,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
 #if SHADING
             if (HAS_NORMALS(part))
-                style(world, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
+                style(FRAME_ARGUMENTS, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
                       SAMPLE_NUMBER(crossing, c, t), x, y, z, CHOOSE(zero, sample.raw, visible),
-                      &strength, &r, &g, &b);
+                      visible, &strength, &r, &g, &b);
 #endif
 #if PROBE
             log_colour(crossing, r, g, b);

@@ -58,7 +58,8 @@ INLINE float4 read_atlas(MEMORY_PARAMETERS, __constant struct part *part, bool n
 #endif
 #if VOXELS & VOXELS_F32
     if (IS_CLASS(part, VOXELS_F32))
-        return read_imagef(atlas_f32, filter, at);
+        // An absent voxel (NaN) makes absent what it is interpolated with, at weight 0, too.
+        return nearest ? read_imagef(atlas_f32, convert_int4(at)) : read_imagef(atlas_f32, filter, at);
 #endif
 #if VOXELS & VOXELS_RGBA
     if (IS_CLASS(part, VOXELS_RGBA))

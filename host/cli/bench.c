@@ -117,7 +117,8 @@ struct bench_case *bench_add(struct bench *bench, const char *suite, const char 
                                  .volumes = 1,
                                  .reader = bench->options.renderer.reader,
                                  .lanes = bench->options.renderer.lanes,
-                                 .work_group = bench->options.renderer.work_group};
+                                 .work_group = bench->options.renderer.work_group,
+                                 .compute_units = bench->options.renderer.compute_units};
     snprintf(added->suite, sizeof added->suite, "%s", suite);
     snprintf(added->name, sizeof added->name, "%s", name);
     return added;
@@ -222,6 +223,7 @@ void bench_finish(struct bench *bench) {
         struct bench_case *one = &bench->cases[i];
         free(one->frame.ms);
         free(one->kernel.ms);
+        free(one->derive.ms);
         free(one->baseline_ratio.ms);
         for (int p = 0; p < BENCH_PEERS; p++) {
             free(one->peers[p].ms);

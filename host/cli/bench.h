@@ -13,6 +13,7 @@
 //     bench_plot.c        cases -> bar charts
 //     bench_report.c      cases -> JSON lines
 //     bench_table.c       cases -> a Markdown table
+//     bench_ways.c        the ways to skip, and what `--skip` takes of them
 #ifndef PEL_CLI_BENCH_H
 #define PEL_CLI_BENCH_H
 
@@ -31,7 +32,9 @@ struct bench_peer {
 struct bench_options {
     int frames;        // turns
     int width, height; // 0: the suite's own
-    int largest;       // voxels along a side of the largest volume of `thesis`
+    int largest;       // voxels along a side of the largest volume of a suite
+    unsigned skips;    // ways to skip that were asked for: bit w is PEL_SKIP_w; 0: the suite's own
+    bool shading;      // of the task: also with light
     const char *json, *markdown, *plot, *data;
     const char *only; // a pattern of bench_keep_only; NULL: all cases
     struct pel_renderer_options renderer;
@@ -52,6 +55,13 @@ struct bench_times {
     int count;
 };
 
+// What a case's row tells besides its times.
+enum bench_detail {
+    BENCH_PLAIN,
+    BENCH_SKIPPING, // how much is skipped, and what that takes
+    BENCH_CHANGING, // what a change sends and derives
+};
+
 struct bench_case {
     enum bench_kind kind;
     char suite[16], name[BENCH_NAME_BYTES];
@@ -60,18 +70,28 @@ struct bench_case {
     int baseline;            // the case it is compared with; -1: none
     bool optional;           // a device that cannot do it leaves it out
     bool with_peers;         // peers do the same work
+    bool shaded;             // for peers to know
     struct pel_scene *scene; // borrowed from the bench; NULL for starts
     int width, height;       // of the picture, overruling the scene's
-    enum pel_reader reader;  // as asked for
-    int lanes;               // as asked for; 0: the device's choice
-    int work_group;          // likewise
-    int work_group_rows;     // likewise
-    double published_fps;    // frames per second that a paper reports of this work; 0: none
+    bool sets_skip;          // as the next two say, overruling the scene
+    enum pel_skip skip;      //
+    struct pel_brick_settings bricks;
+    enum pel_reader reader; // as asked for
+    int lanes;              // as asked for; 0: the device's choice
+    int work_group;         // likewise
+    int work_group_rows;    // likewise
+    int compute_units;      // of the device; 0: all
+    enum bench_detail detail;
+    double depth[2]; // of bricks: clusters on a ray, and bricks alone; 0: not looked at
+    // Changes the scene before the frame that counts; NULL: nothing changes.
+    void (*change)(struct pel_scene *scene, int turn);
+    double published_fps; // frames per second that a paper reports of this work; 0: none
 
     // Results.
     char problem[256];                       // why it was left out; "": it was not
     struct pel_render_statistics statistics; // of the last frame
     struct bench_times frame, kernel;        // all of a frame; the kernel alone
+    struct bench_times derive;               // what skipping goes by, when it changes
     struct bench_times peers[BENCH_PEERS];   //
     char peer_problems[BENCH_PEERS][256];    // why a peer was left out of this case
     struct bench_times ratios[BENCH_PEERS];  // ours over the peer's, turn by turn
@@ -135,11 +155,37 @@ int bench_add_volumes(struct bench *bench);
 int bench_add_start(struct bench *bench);
 int bench_add_workgroup(struct bench *bench);
 int bench_add_thesis(struct bench *bench);
+int bench_add_skip(struct bench *bench);
+int bench_add_scaling(struct bench *bench);
+int bench_add_changes(struct bench *bench);
 int bench_add_scene_file(struct bench *bench, const char *path);
 
 // A volume with the character of the task's: noisy shell and smooth blobs, two thirds of the voxels
 // exactly 0, the same at every call. NULL after a message.
 struct pel_volume *bench_task_volume(int size);
+
+// The task's transfer function T1, T2 or T3 (t = 0, 1, 2) as it is without the task's files. The
+// caller owns it. NULL after a message.
+struct pel_transfer *bench_task_transfer(int t);
+
+// ---- Ways to skip ------------------------------------------------------------------------------
+
+enum { BENCH_WAYS = PEL_SKIP_BLOCKS + 1 };
+
+// Reads a way's name, or "all"; false after a message.
+bool bench_read_skip(const char *text, unsigned *skips);
+
+// The ways in order: none first, which the others are compared with, and auto last.
+enum pel_skip bench_way(int n);
+
+// Makes a case skip in one way, whatever its scene says, and tell what that takes.
+void bench_set_skip(struct bench_case *one, enum pel_skip skip);
+
+// Whether a way was asked for, or none was and it is one of the suite's own.
+bool bench_wants_skip(const struct bench *bench, enum pel_skip skip, unsigned own);
+
+// The ways that all of a suite's cases try.
+#define BENCH_ALL_WAYS (((1U << BENCH_WAYS) - 1) & ~1U)
 
 // ---- Measuring ---------------------------------------------------------------------------------
 
@@ -148,6 +194,9 @@ int bench_run(struct bench *bench);
 
 // Checks a peer's placeholders; false after a message.
 bool bench_peer_check(const struct bench_peer *peer);
+
+// Whether a peer can be asked for shaded pictures: its command has {shading}.
+bool bench_peer_shades(const struct bench_peer *peer);
 
 // Runs a peer once on the work of a case. `*ms` is the "median_ms" of the JSON object in the last
 // line of its output. On failure false, and why in `problem`.

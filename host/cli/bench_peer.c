@@ -17,7 +17,7 @@
 #include "cli/nearest.h"
 #include "cli/options.h"
 
-static const char *const placeholders[] = {"tf", "width", "height", "volumes", "data"};
+static const char *const placeholders[] = {"tf", "width", "height", "volumes", "shading", "data"};
 
 enum { PLACEHOLDERS = sizeof placeholders / sizeof *placeholders };
 
@@ -54,12 +54,21 @@ bool bench_peer_check(const struct bench_peer *peer) {
         snprintf(word, sizeof word, "%.*s", length, c + 1);
         const char *nearest = cli_nearest(word, placeholders, PLACEHOLDERS);
         cli_fail(PEL_ERROR_ARGUMENT,
-                 "--peer %s: {%s} is none of {tf}, {width}, {height}, {volumes}, {data}%s%s%s",
+                 "--peer %s: {%s} is none of {tf}, {width}, {height}, {volumes}, {shading}, "
+                 "{data}%s%s%s",
                  peer->name, word, nearest ? "; did you mean {" : "", nearest ? nearest : "",
                  nearest ? "}?" : "");
         return false;
     }
     return true;
+}
+
+bool bench_peer_shades(const struct bench_peer *peer) {
+    int length;
+    for (const char *c = peer->command; (c = next_placeholder(c, peer->command, &length)); c++)
+        if (strcmp(placeholders[find_placeholder(c + 1, length)], "shading") == 0)
+            return true;
+    return false;
 }
 
 // The command with its placeholders filled in; memory to free(), or NULL.
@@ -86,6 +95,9 @@ static char *fill_in(const struct bench *bench, const struct bench_case *work,
             break;
         case 3:
             fprintf(stream, "%d", work->volumes);
+            break;
+        case 4:
+            fprintf(stream, "%d", work->shaded);
             break;
         default:
             fputs(bench->options.data ? bench->options.data : "", stream);

@@ -61,6 +61,24 @@ static void add_times(json_t *object, const struct bench_times *times) {
     json_object_set_new(object, "frames", json_integer(times->count));
 }
 
+static json_t *bricks_json(const struct bench_case *one) {
+    const struct pel_brick_statistics *bricks = &one->statistics.bricks;
+    json_t *object = json_object();
+    json_object_set_new(object, "size", json_integer(bricks->size));
+    json_object_set_new(object, "total", json_integer((json_int_t)bricks->total));
+    json_object_set_new(object, "active", json_integer((json_int_t)bricks->active));
+    json_object_set_new(object, "clusters", json_integer((json_int_t)bricks->clusters));
+    json_object_set_new(object, "resident", json_integer((json_int_t)bricks->resident));
+    json_object_set_new(object, "activity_ms", report_number(bricks->activity_ms));
+    json_object_set_new(object, "cluster_ms", report_number(bricks->cluster_ms));
+    json_object_set_new(object, "tree_ms", report_number(bricks->tree_ms));
+    if (one->depth[1] > 0) {
+        json_object_set_new(object, "depth", report_number(one->depth[0]));
+        json_object_set_new(object, "depth_apart", report_number(one->depth[1]));
+    }
+    return object;
+}
+
 static void add_frame(json_t *object, const struct bench_case *one) {
     const struct pel_render_statistics *statistics = &one->statistics;
     double samples = (double)statistics->samples;
@@ -80,6 +98,18 @@ static void add_frame(json_t *object, const struct bench_case *one) {
     json_object_set_new(object, "kernel_local_bytes",
                         json_integer((json_int_t)statistics->kernel.local_bytes));
     json_object_set_new(object, "device_bytes", json_integer((json_int_t)statistics->device_bytes));
+    json_object_set_new(object, "uploaded_bytes",
+                        json_integer((json_int_t)statistics->uploaded_bytes));
+    json_object_set_new(object, "skip", json_string(report_skip(statistics->skip)));
+    json_object_set_new(object, "skip_ms", report_number(bench_median(&one->derive)));
+    json_object_set_new(object, "skip_bytes", json_integer((json_int_t)statistics->skip_bytes));
+    json_object_set_new(object, "samples_skipped",
+                        json_integer((json_int_t)statistics->samples_skipped));
+    json_object_set_new(object, "rays", json_integer((json_int_t)statistics->rays));
+    if (one->compute_units)
+        json_object_set_new(object, "compute_units", json_integer(one->compute_units));
+    if (statistics->bricks.size > 0)
+        json_object_set_new(object, "bricks", bricks_json(one));
 }
 
 static json_t *peers_json(const struct bench *bench, const struct bench_case *one) {
@@ -106,7 +136,7 @@ static json_t *case_json(const struct bench *bench, int index,
         json_object_set_new(object, "tf", json_string(one->transfer));
     json_object_set_new(object, "width", json_integer(one->width));
     json_object_set_new(object, "height", json_integer(one->height));
-    json_object_set_new(object, "shaded", json_false());
+    json_object_set_new(object, "shaded", json_boolean(one->shaded));
     json_object_set_new(object, "volumes", json_integer(one->volumes));
     if (strcmp(one->suite, "task") == 0)
         json_object_set_new(object, "data",

@@ -17,7 +17,7 @@
 struct bench_engine {
     struct bench_engine *next;
     enum pel_reader reader;
-    int lanes, work_group, work_group_rows, volume_count;
+    int lanes, work_group, work_group_rows, compute_units, volume_count;
     struct pel_volume *volumes[PEL_VOLUME_MAX];
     struct pel_renderer *renderer;
 };
@@ -29,6 +29,7 @@ static struct pel_renderer *find_renderer(struct bench *bench, const struct benc
         if (engine->reader == one->reader && engine->lanes == one->lanes &&
             engine->work_group == one->work_group &&
             engine->work_group_rows == one->work_group_rows &&
+            engine->compute_units == one->compute_units &&
             engine->volume_count == scene->volume_count &&
             memcmp(engine->volumes, scene->volumes, bytes) == 0)
             return engine->renderer;
@@ -40,9 +41,14 @@ static struct pel_renderer *find_renderer(struct bench *bench, const struct benc
     options.lanes = made->lanes = one->lanes;
     options.work_group = made->work_group = one->work_group;
     options.work_group_rows = made->work_group_rows = one->work_group_rows;
+    options.compute_units = made->compute_units = one->compute_units;
     made->volume_count = scene->volume_count;
     memcpy(made->volumes, scene->volumes, bytes);
     made->renderer = pel_renderer_create(&options);
+    if (!made->renderer) {
+        free(made);
+        return NULL;
+    }
     made->next = bench->engines;
     bench->engines = made;
     return made->renderer;
@@ -64,6 +70,10 @@ static bool render(struct bench *bench, struct bench_case *one, double *ms) {
         return false;
     one->scene->render.width = one->width;
     one->scene->render.height = one->height;
+    if (one->sets_skip) {
+        one->scene->render.skip = one->skip;
+        one->scene->render.bricks = one->bricks;
+    }
     double begin_ms = pel_clock_ms();
     struct pel_image *image = pel_renderer_render(renderer, one->scene, NULL, &one->statistics);
     *ms = pel_clock_ms() - begin_ms;
@@ -74,6 +84,8 @@ static bool render(struct bench *bench, struct bench_case *one, double *ms) {
 // The frame before all turns.
 static int warm_up(struct bench *bench, struct bench_case *one) {
     double ms;
+    if (one->change)
+        one->change(one->scene, 1);
     if (one->kind != BENCH_FRAME || render(bench, one, &ms))
         return PEL_OK;
     if (!one->optional)
@@ -98,11 +110,20 @@ static int take_start(struct bench *bench, struct bench_case *one, char cache[25
 }
 
 static int take_frame(struct bench *bench, struct bench_case *one, double *ms) {
-    double ignored_ms;
-    if (!render(bench, one, &ignored_ms) || !render(bench, one, ms))
+    // In the first frame the device forgets the case before, unless that skips alike.
+    bool good = render(bench, one, ms);
+    double derive_ms = one->statistics.skip_ms;
+    if (good && one->change)
+        one->change(one->scene, one->frame.count);
+    good = good && render(bench, one, ms);
+    if (!good)
         return cli_fail(pel_error_code(), "%s: %s: %s", one->suite, one->name, pel_error_message());
-    return bench_time_add(bench, &one->kernel, one->statistics.render_ms) ? PEL_OK
-                                                                          : (int)PEL_ERROR_MEMORY;
+    if (one->detail == BENCH_CHANGING)
+        derive_ms = one->statistics.skip_ms;
+    return bench_time_add(bench, &one->kernel, one->statistics.render_ms) &&
+                   bench_time_add(bench, &one->derive, derive_ms)
+               ? PEL_OK
+               : (int)PEL_ERROR_MEMORY;
 }
 
 static int take_sequential(struct bench_case *one, double *ms) {
@@ -114,7 +135,7 @@ static bool take_peers(struct bench *bench, struct bench_case *one, double frame
     for (int p = 0; good && one->with_peers && p < bench->options.peer_count; p++) {
         double ms;
         char *problem = one->peer_problems[p];
-        if (problem[0])
+        if (problem[0] || (one->shaded && !bench_peer_shades(&bench->options.peers[p])))
             continue;
         if (bench_peer_run(bench, one, p, &ms, problem))
             good = bench_time_add(bench, &one->peers[p], ms) &&

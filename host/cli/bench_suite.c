@@ -9,6 +9,7 @@
 
 #include "cli/bench.h"
 #include "cli/options.h"
+#include "cli/report.h"
 
 enum { BALL_SIZE = 64, USUAL_WIDTH = 640, USUAL_HEIGHT = 480 };
 
@@ -94,6 +95,24 @@ int bench_add_volumes(struct bench *bench) {
     return good ? PEL_OK : (int)PEL_ERROR_MEMORY;
 }
 
+// A case of a scene, as it is or skipping in one way.
+static bool add_scene(struct bench *bench, const char *path, struct pel_scene *scene,
+                      enum pel_skip skip, int first) {
+    struct bench_case *added = bench_add(bench, "scene", path);
+    if (!added)
+        return false;
+    added->scene = scene;
+    added->width = bench->options.width ? bench->options.width : scene->render.width;
+    added->height = bench->options.width ? bench->options.height : scene->render.height;
+    added->volumes = scene->instance_count;
+    if (bench->options.skips == 0)
+        return true;
+    bench_set_skip(added, skip);
+    snprintf(added->name, sizeof added->name, "%s, %s", path, report_skip(skip));
+    added->baseline = bench->case_count - 1 > first ? first : -1;
+    return true;
+}
+
 int bench_add_scene_file(struct bench *bench, const char *path) {
     struct pel_scene *scene = cli_is_scene(path) ? pel_scene_load(path, NULL, 0)
                                                  : pel_scene_from_files(&path, 1, NULL, 0);
@@ -101,12 +120,12 @@ int bench_add_scene_file(struct bench *bench, const char *path) {
         return cli_fail_library();
     if (!bench_keep_scene(bench, scene))
         return (int)PEL_ERROR_MEMORY;
-    struct bench_case *added = bench_add(bench, "scene", path);
-    if (!added)
-        return (int)PEL_ERROR_MEMORY;
-    added->scene = scene;
-    added->width = bench->options.width ? bench->options.width : scene->render.width;
-    added->height = bench->options.width ? bench->options.height : scene->render.height;
-    added->volumes = scene->instance_count;
+    int first = bench->case_count;
+    for (int n = 0; n < BENCH_WAYS; n++) {
+        enum pel_skip skip = bench_way(n);
+        bool wanted = bench->options.skips ? bench_wants_skip(bench, skip, 0) : n == 0;
+        if (wanted && !add_scene(bench, path, scene, skip, first))
+            return (int)PEL_ERROR_MEMORY;
+    }
     return PEL_OK;
 }

@@ -20,6 +20,15 @@ enum {
     COLUMN_KERNEL,
     COLUMN_SAMPLES,
     COLUMN_SPEED,
+    COLUMN_RAYS,
+    COLUMN_DERIVE,
+    COLUMN_SENT,
+    COLUMN_SKIP_BYTES,
+    COLUMN_DEVICE_BYTES,
+    COLUMN_BRICKS,
+    COLUMN_ACTIVE,
+    COLUMN_CLUSTERS,
+    COLUMN_DEPTH,
     COLUMN_KERNEL_INFO,
     COLUMN_FPS,
     COLUMN_PUBLISHED,
@@ -52,15 +61,42 @@ static void set_number(struct row *row, int column, double value) {
 
 static void fill_header(struct row *row, const struct bench *bench) {
     static const char *const names[COLUMN_PEERS] = {
-        "#",         "case",          "pixels",     "volumes",
-        "reader",    "lanes",         "ms",         "range",
-        "kernel ms", "Msamples",      "Msamples/s", "kernel max, multiple, private bytes",
-        "fps",       "published fps", "ratio",
+        "#",          "case",          "pixels",
+        "volumes",    "reader",        "lanes",
+        "ms",         "range",         "kernel ms",
+        "Msamples",   "Msamples/s",    "Mrays/s",
+        "derive ms",  "sent KiB",      "skip KiB",
+        "device MiB", "bricks",        "active",
+        "clusters",   "depth, apart",  "kernel max, multiple, private bytes",
+        "fps",        "published fps", "ratio",
     };
     for (int c = 0; c < COLUMN_PEERS; c++)
         set(row, c, "%s", names[c]);
     for (int p = 0; p < bench->options.peer_count; p++)
         set(row, COLUMN_PEERS + p, "/ %s", bench->options.peers[p].name);
+}
+
+// What skipping takes, and what a change sends.
+static void fill_detail(struct row *row, const struct bench_case *one) {
+    const struct pel_render_statistics *statistics = &one->statistics;
+    const struct pel_brick_statistics *bricks = &statistics->bricks;
+    if (one->detail == BENCH_PLAIN || one->problem[0])
+        return;
+    set_number(row, COLUMN_DERIVE, bench_median(&one->derive));
+    if (one->detail == BENCH_CHANGING) {
+        set_number(row, COLUMN_SENT, (double)statistics->uploaded_bytes / 1024);
+        return;
+    }
+    set_number(row, COLUMN_RAYS, (double)statistics->rays / bench_median(&one->frame) / 1e3);
+    set_number(row, COLUMN_SKIP_BYTES, (double)statistics->skip_bytes / 1024);
+    set_number(row, COLUMN_DEVICE_BYTES, (double)statistics->device_bytes / (1 << 20));
+    if (bricks->size == 0)
+        return;
+    set(row, COLUMN_BRICKS, "%llu", (unsigned long long)bricks->total);
+    set(row, COLUMN_ACTIVE, "%llu", (unsigned long long)bricks->active);
+    set(row, COLUMN_CLUSTERS, "%llu", (unsigned long long)bricks->clusters);
+    if (one->depth[1] > 0)
+        set(row, COLUMN_DEPTH, "%.2f, %.2f", one->depth[0], one->depth[1]);
 }
 
 static void fill_row(struct row *row, const struct bench *bench, int index) {
@@ -84,6 +120,8 @@ static void fill_row(struct row *row, const struct bench *bench, int index) {
         set_number(row, COLUMN_SAMPLES, samples / 1e6);
         set_number(row, COLUMN_SPEED, samples / bench_median(&one->frame) / 1e3);
     }
+    if (one->kind == BENCH_FRAME)
+        fill_detail(row, one);
     // Where a paper has frames per second, so have we; where groups vary, what the kernel bears.
     if (one->published_fps > 0) {
         set_number(row, COLUMN_FPS, 1e3 / bench_median(&one->frame));

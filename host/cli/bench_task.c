@@ -14,6 +14,7 @@
 
 #include "cli/bench.h"
 #include "cli/options.h"
+#include "cli/report.h"
 
 enum { SIZE = 256, TABLE = 256, COPIES = 8, TRANSFERS = 3 };
 
@@ -96,7 +97,7 @@ static int load_task(struct task *task, const char *folder) {
 }
 
 // Tables like those of the files, from their corners.
-static int make_transfer(struct pel_transfer **transfer, int t) {
+struct pel_transfer *bench_task_transfer(int t) {
     enum { POINTS = 9 };
     static const struct {
         int colour_count, opacity_count;
@@ -132,14 +133,16 @@ static int make_transfer(struct pel_transfer **transfer, int t) {
           {255, {0, 0, 0}}},
          {{0, 0}, {32, 0.0975}, {223, 0.0975}, {255, 0}}},
     };
-    *transfer = new_transfer(made[t].colour_count, made[t].opacity_count);
-    if (!*transfer)
-        return cli_fail(PEL_ERROR_MEMORY, "cannot allocate a transfer function");
-    memcpy((*transfer)->colours, made[t].colours,
+    struct pel_transfer *transfer = new_transfer(made[t].colour_count, made[t].opacity_count);
+    if (!transfer) {
+        cli_fail(PEL_ERROR_MEMORY, "cannot allocate a transfer function");
+        return NULL;
+    }
+    memcpy(transfer->colours, made[t].colours,
            (size_t)made[t].colour_count * sizeof *made[t].colours);
-    memcpy((*transfer)->opacities, made[t].opacities,
+    memcpy(transfer->opacities, made[t].opacities,
            (size_t)made[t].opacity_count * sizeof *made[t].opacities);
-    return PEL_OK;
+    return transfer;
 }
 
 // Without the files, the work is of the same kind but not the same.
@@ -154,10 +157,10 @@ static int make_task(struct bench *bench, struct task *task) {
         return (int)PEL_ERROR_MEMORY;
     memcpy(task->volumes[0]->voxels, made->voxels, pel_volume_bytes(made));
     pel_volume_destroy(made);
-    int status = PEL_OK;
-    for (int t = 0; !status && t < TRANSFERS; t++)
-        status = make_transfer(&task->transfers[t], t);
-    return status;
+    for (int t = 0; t < TRANSFERS; t++)
+        if (!(task->transfers[t] = bench_task_transfer(t)))
+            return (int)PEL_ERROR_MEMORY;
+    return PEL_OK;
 }
 
 // From the folder of --data, which must have the files; else from that of $PELLUCID_TEST_DATA.
@@ -205,45 +208,54 @@ static struct pel_scene *task_scene(struct bench *bench, const struct task *task
     return scene;
 }
 
+// One case. Skipping, and light, add to its name.
+static struct bench_case *add_case(struct bench *bench, const struct task *task, int t, int volumes,
+                                   enum pel_skip skip, bool shaded) {
+    char name[32], way[32] = "";
+    if (skip != PEL_SKIP_NONE)
+        snprintf(way, sizeof way, ", %s", report_skip(skip));
+    snprintf(name, sizeof name, "%s%s%s", transfer_names[t], shaded ? " shaded" : "", way);
+    struct bench_case *added = bench_add(bench, "task", name);
+    struct pel_scene *scene = added ? task_scene(bench, task, t, volumes) : NULL;
+    if (!scene)
+        return NULL;
+    scene->render.skip = skip;
+    for (int k = 0; shaded && k < volumes; k++)
+        scene->instances[k].material = pel_material_default(PEL_SHADING_BLINN_PHONG);
+    added->scene = scene;
+    snprintf(added->transfer, sizeof added->transfer, "%s", transfer_names[t]);
+    added->volumes = volumes;
+    added->shaded = shaded;
+    added->with_peers = true;
+    return added;
+}
+
 // 1, 2, 4 and 8 volumes with one transfer function in one size.
 static bool add_copies(struct bench *bench, const struct task *task, int t, const int size[2]) {
     int first = bench->case_count;
     for (int volumes = 1; volumes <= COPIES; volumes *= 2) {
-        struct bench_case *added = bench_add(bench, "task", transfer_names[t]);
-        struct pel_scene *scene = added ? task_scene(bench, task, t, volumes) : NULL;
-        if (!scene)
+        struct bench_case *added = add_case(bench, task, t, volumes, PEL_SKIP_NONE, false);
+        if (!added)
             return false;
-        added->scene = scene;
-        snprintf(added->transfer, sizeof added->transfer, "%s", transfer_names[t]);
-        added->volumes = volumes;
         added->baseline = volumes > 1 ? first : -1;
-        added->with_peers = true;
         added->width = size[0];
         added->height = size[1];
     }
     return true;
 }
 
-// One volume and eight, with empty space skipped, compared with the same without.
+// One volume and eight, or with light one, with empty space skipped, compared with the same
+// without: the case from `first` on with as many volumes.
 static bool add_skips(struct bench *bench, const struct task *task, int t, const int size[2],
-                      int first) {
-    static const struct {
-        const char *name;
-        enum pel_skip skip;
-    } ways[] = {{"grid", PEL_SKIP_GRID}, {"distance", PEL_SKIP_DISTANCE}};
-    for (int volumes = 1; volumes <= COPIES; volumes *= COPIES) {
-        for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
-            char name[32];
-            snprintf(name, sizeof name, "%s, %s", transfer_names[t], ways[i].name);
-            struct bench_case *added = bench_add(bench, "task", name);
-            struct pel_scene *scene = added ? task_scene(bench, task, t, volumes) : NULL;
-            if (!scene)
+                      int first, bool shaded) {
+    static const unsigned own = 1U << PEL_SKIP_GRID | 1U << PEL_SKIP_DISTANCE;
+    for (int volumes = 1; volumes <= (shaded ? 1 : COPIES); volumes *= COPIES) {
+        for (enum pel_skip skip = PEL_SKIP_AUTO; skip <= PEL_SKIP_BLOCKS; skip++) {
+            if (skip == PEL_SKIP_NONE || !bench_wants_skip(bench, skip, own))
+                continue;
+            struct bench_case *added = add_case(bench, task, t, volumes, skip, shaded);
+            if (!added)
                 return false;
-            scene->render.skip = ways[i].skip;
-            added->scene = scene;
-            snprintf(added->transfer, sizeof added->transfer, "%s", transfer_names[t]);
-            added->volumes = volumes;
-            added->with_peers = true;
             added->width = size[0];
             added->height = size[1];
             for (int c = first; added->baseline < 0; c++)
@@ -252,6 +264,19 @@ static bool add_skips(struct bench *bench, const struct task *task, int t, const
         }
     }
     return true;
+}
+
+// One volume with light, compared with the same without, and with empty space skipped.
+static bool add_shaded(struct bench *bench, const struct task *task, int t, const int size[2],
+                       int first) {
+    int index = bench->case_count;
+    struct bench_case *added = add_case(bench, task, t, 1, PEL_SKIP_NONE, true);
+    if (!added)
+        return false;
+    added->width = size[0];
+    added->height = size[1];
+    added->baseline = first;
+    return add_skips(bench, task, t, size, index, true);
 }
 
 // One volume with every number of lanes and both readers. The run's own choice comes once more, so
@@ -301,7 +326,9 @@ int bench_add_task(struct bench *bench) {
         const int *size = given[0] ? given : usual[s];
         for (int t = 0; good && t < TRANSFERS; t++) {
             int copies = bench->case_count;
-            good = add_copies(bench, &task, t, size) && add_skips(bench, &task, t, size, copies);
+            good = add_copies(bench, &task, t, size) &&
+                   add_skips(bench, &task, t, size, copies, false) &&
+                   (!bench->options.shading || add_shaded(bench, &task, t, size, copies));
         }
     }
     good = good && add_variants(bench, &bench->cases[first]);

@@ -22,6 +22,11 @@ static const struct suite {
     {"volumes", "1 to 32 volumes of 64^3 voxels, overlapping and side by side", bench_add_volumes},
     {"workgroup", "sizes and shapes of work-groups, and rays per work-item", bench_add_workgroup},
     {"thesis", "what tables 6.1 to 6.11 of Romero 2009 measured", bench_add_thesis},
+    {"skip", "all ways to skip empty space, for several volumes and transfer functions",
+     bench_add_skip},
+    {"scaling", "1 to all compute units, sizes of pictures and volumes, 1 to 32 volumes",
+     bench_add_scaling},
+    {"changes", "what a moved camera, and edits of a scene, send and derive", bench_add_changes},
     {"start", "the whole program on a small scene, before and after kernels are cached",
      bench_add_start},
 };
@@ -37,6 +42,9 @@ enum {
     KEY_PLOT,
     KEY_DATA,
     KEY_LARGEST,
+    KEY_SKIP,
+    KEY_SHADING,
+    KEY_COMPUTE_UNITS,
     KEY_ONLY,
     KEY_PEER,
     KEY_DEVICE,
@@ -50,7 +58,14 @@ static const struct argp_option options[] = {
     {"frames", KEY_FRAMES, "N", 0, "Frames of each case (default 7)", 0},
     {"size", KEY_SIZE, "WxH", 0, "Pixels (default: the suite's own)", 0},
     {"largest", KEY_LARGEST, "N", 0,
-     "Voxels along a side of the largest volume of the suite 'thesis' (default 512)", 0},
+     "Voxels along a side of the largest volume of 'thesis', 'skip', 'scaling' and 'changes' "
+     "(default 512)",
+     0},
+    {"skip", KEY_SKIP, "NAME", 0,
+     "How empty space is skipped in the suites 'task', 'skip' and 'changes' and in scenes: none, "
+     "grid, distance, octree, bvh, blocks, auto, or all of them; may be repeated",
+     0},
+    {"shading", KEY_SHADING, NULL, 0, "Measure the suite 'task' with light, too", 0},
     {"only", KEY_ONLY, "PATTERN", 0,
      "Only cases in whose 'SUITE NAME xVOLUMES WxH' the shell pattern is found, and those they "
      "are compared with",
@@ -61,7 +76,8 @@ static const struct argp_option options[] = {
      0},
     {"peer", KEY_PEER, "NAME=COMMAND", 0,
      "Another program to measure in turns with the suite 'task'; {tf}, {width}, {height}, "
-     "{volumes} and {data} in its command are filled in, and the last line it prints must be "
+     "{volumes}, {shading} (0 or 1) and {data} in its command are filled in, and the last line it "
+     "prints must be "
      "JSON with \"median_ms\"; may be repeated",
      0},
     {"json", KEY_JSON, "FILE", 0, "Write a line of JSON for each case; - for standard output", 0},
@@ -72,6 +88,8 @@ static const struct argp_option options[] = {
     {"reader", KEY_READER, "auto|buffer|image", 0, "How kernels read voxels", 0},
     {"lanes", KEY_LANES, "1|4|8|16", 0, "Rays per work-item", 0},
     {"work-group", KEY_WORK_GROUP, "N", 0, "Work-items per work-group", 0},
+    {"compute-units", KEY_COMPUTE_UNITS, "N", 0, "Of a device that can be divided, only so many",
+     0},
     {0},
 };
 
@@ -138,6 +156,15 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_ONLY:
         chosen->only = argument;
+        break;
+    case KEY_SKIP:
+        good = bench_read_skip(argument, &chosen->skips);
+        break;
+    case KEY_SHADING:
+        chosen->shading = true;
+        break;
+    case KEY_COMPUTE_UNITS:
+        good = cli_integer("--compute-units", argument, 1, &chosen->renderer.compute_units);
         break;
     case KEY_DATA:
         chosen->data = argument;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/describe.h"
+#include "cli/describe_scene.h"
 #include "cli/options.h"
 #include "cli/report.h"
 
@@ -48,45 +49,6 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     }
 }
 
-static void print_scene(const struct pel_scene *scene) {
-    const struct pel_camera *camera = &scene->camera;
-    printf("  %-12s %d x %d pixels, mixing %s, step %.6g\n", "picture", scene->render.width,
-           scene->render.height, pel_mixing_names()[scene->render.mixing], scene->render.step);
-    printf("  %-12s from %.6g, %.6g, %.6g to %.6g, %.6g, %.6g mm\n", "camera", camera->eye[0],
-           camera->eye[1], camera->eye[2], camera->target[0], camera->target[1], camera->target[2]);
-    struct pel_bounds bounds;
-    if (pel_scene_bounds(scene, &bounds))
-        printf("  %-12s %.6g, %.6g, %.6g to %.6g, %.6g, %.6g mm\n", "bounds", bounds.low[0],
-               bounds.low[1], bounds.low[2], bounds.high[0], bounds.high[1], bounds.high[2]);
-    for (int i = 0; i < scene->instance_count; i++) {
-        const struct pel_instance *instance = &scene->instances[i];
-        printf("  %-12s %d '%s': %s%s\n", "volume", i, instance->name,
-               scene->volumes[instance->volume]->name, instance->hidden ? ", hidden" : "");
-        describe_print(scene->volumes[instance->volume], &scene->statistics[instance->volume], 4);
-    }
-}
-
-static json_t *scene_json(const struct pel_scene *scene) {
-    json_t *object = json_object();
-    json_object_set_new(object, "width", json_integer(scene->render.width));
-    json_object_set_new(object, "height", json_integer(scene->render.height));
-    json_object_set_new(object, "mixing", json_string(pel_mixing_names()[scene->render.mixing]));
-    json_object_set_new(object, "step", report_number(scene->render.step));
-    json_object_set_new(object, "eye", report_numbers(scene->camera.eye, 3));
-    json_object_set_new(object, "target", report_numbers(scene->camera.target, 3));
-    json_t *list = json_array();
-    for (int i = 0; i < scene->instance_count; i++) {
-        const struct pel_instance *instance = &scene->instances[i];
-        json_t *volume =
-            describe_json(scene->volumes[instance->volume], &scene->statistics[instance->volume]);
-        json_object_set_new(volume, "instance", report_text(instance->name));
-        json_object_set_new(volume, "hidden", json_boolean(instance->hidden));
-        json_array_append_new(list, volume);
-    }
-    json_object_set_new(object, "volumes", list);
-    return object;
-}
-
 // Adds what is to be said about bricks to each volume of a scene; returns the exit status.
 static int add_bricks(const struct pel_scene *scene, json_t *volumes) {
     for (int i = 0; i < scene->instance_count; i++) {
@@ -105,14 +67,14 @@ static int show_scene(const char *path, const struct arguments *arguments, json_
         return cli_fail_library();
     int status = PEL_OK;
     if (array) {
-        json_t *object = scene_json(scene);
+        json_t *object = describe_scene_json(scene);
         json_object_set_new(object, "file", report_text(path));
         if (arguments->bricks)
             status = add_bricks(scene, json_object_get(object, "volumes"));
         json_array_append_new(array, object);
     } else {
         printf("%s\n", path);
-        print_scene(scene);
+        describe_scene(scene);
         for (int i = 0; !status && arguments->bricks && i < scene->instance_count; i++)
             status = describe_bricks(scene, i, 4);
     }

@@ -36,6 +36,8 @@ enum {
     KEY_DEBUG,
     KEY_DENSITY,
     KEY_SHADING,
+    KEY_SHADOWS,
+    KEY_AMBIENT_OCCLUSION,
     KEY_BACKGROUND,
     KEY_STEREO,
     KEY_STEREO_SEPARATION,
@@ -46,6 +48,7 @@ enum {
     KEY_READER,
     KEY_LANES,
     KEY_WORK_GROUP,
+    KEY_COMPUTE_UNITS,
     KEY_DEVICE,
     KEY_DEPTH,
     KEY_ALPHA,
@@ -130,6 +133,14 @@ static const struct argp_option argp_options[] = {
      0},
     {"order", KEY_ORDER, "front-to-back|back-to-front", 0,
      "From which end a ray's samples are put together", 0},
+    {"shadows", KEY_SHADOWS, "on|off|KEY=VALUE,...", OPTION_ARG_OPTIONAL,
+     "Let volumes cast shadows on shaded ones; or with keys of the scene's shadows, such as "
+     "length=50,strength=0.7",
+     0},
+    {"ambient-occlusion", KEY_AMBIENT_OCCLUSION, "on|off|KEY=VALUE,...", OPTION_ARG_OPTIONAL,
+     "Darken shaded volumes where something near hides what is around, such as "
+     "directions=32,radius=20",
+     0},
     {"step", KEY_STEP, "N", 0, "Distance of samples, in voxels of the finest volume", 0},
     {"step-mm", KEY_STEP_MM, "MM", 0, "The same in millimetres", 0},
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
@@ -154,6 +165,8 @@ static const struct argp_option argp_options[] = {
     {"reader", KEY_READER, "auto|buffer|image", 0, "How kernels read voxels", 0},
     {"lanes", KEY_LANES, "1|4|8|16", 0, "Rays per work-item", 0},
     {"work-group", KEY_WORK_GROUP, "N", 0, "Work-items per work-group", 0},
+    {"compute-units", KEY_COMPUTE_UNITS, "N", 0, "Of a device that can be divided, only so many",
+     0},
     {0, 0, NULL, 0, "Everything else:", 6},
     {"set", KEY_SET, "KEY=VALUE", 0,
      "Set any key of the scene, such as volumes.0.density=0.2; may be repeated", 0},
@@ -239,17 +252,19 @@ static bool add_camera(struct render_options *options, const char *text) {
     return true;
 }
 
-static bool add_shading(struct render_options *options, const char *text) {
+// A key that is true, false or an object.
+static bool add_switch(struct render_options *options, const char *option, const char *key,
+                       const char *text) {
     if (text && strchr(text, '=')) {
-        overrides_add(&options->overrides, "volumes.*.shading", "{}");
-        return overrides_add_pairs(&options->overrides, "--shading", "volumes.*.shading", text);
+        overrides_add(&options->overrides, key, "{}");
+        return overrides_add_pairs(&options->overrides, option, key, text);
     }
     if (text && strcmp(text, "on") != 0 && strcmp(text, "off") != 0) {
-        cli_fail(PEL_ERROR_ARGUMENT, "--shading: '%s' is not on, off or KEY=VALUE,...", text);
+        cli_fail(PEL_ERROR_ARGUMENT, "%s: '%s' is not on, off or KEY=VALUE,...", option, text);
         return false;
     }
     bool off = text && strcmp(text, "off") == 0;
-    overrides_add(&options->overrides, "volumes.*.shading", off ? "false" : "true");
+    overrides_add(&options->overrides, key, off ? "false" : "true");
     return true;
 }
 
@@ -290,9 +305,33 @@ static error_t parse_stereo_key(int key, const char *argument, struct render_opt
     return good ? 0 : PEL_ERROR_ARGUMENT;
 }
 
+// Options whose argument is the text of a key of the scene.
+static const struct {
+    int key;
+    const char *path;
+} text_keys[] = {
+    {KEY_MIX, "render.mixing"},
+    {KEY_MODEL, "render.model"},
+    {KEY_ORDER, "render.order"},
+    {KEY_SKIP, "render.skip"},
+    {KEY_PATTERN, "render.supersampling.pattern"},
+    {KEY_RECONSTRUCTION, "render.supersampling.filter"},
+    {KEY_DEBUG, "render.debug"},
+    {KEY_FILTER, "volumes.*.filter"},
+    {KEY_GRADIENT, "volumes.*.gradient"},
+    {KEY_TRANSFER, "volumes.*.transfer"},
+    {KEY_ALPHA, "output.alpha"},
+};
+
 // Keys of the scene; ARGP_ERR_UNKNOWN for the other options.
 static error_t parse_scene_key(int key, const char *argument, struct render_options *options) {
     bool good = true;
+    for (size_t n = 0; n < sizeof text_keys / sizeof *text_keys; n++) {
+        if (text_keys[n].key == key) {
+            overrides_add_text(&options->overrides, text_keys[n].path, argument);
+            return 0;
+        }
+    }
     switch (key) {
     case KEY_SIZE:
         good = add_size(options, argument);
@@ -309,15 +348,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_MASK:
         good = mask_option_add(&options->overrides, argument);
         break;
-    case KEY_MIX:
-        overrides_add_text(&options->overrides, "render.mixing", argument);
-        break;
     case KEY_STEP:
         overrides_add(&options->overrides, "render.step_mm", "null");
         good = add_number(options, "--step", "render.step", argument);
-        break;
-    case KEY_MODEL:
-        overrides_add_text(&options->overrides, "render.model", argument);
         break;
     case KEY_QUALITY:
         overrides_add(&options->overrides, "render.step", "null");
@@ -329,9 +362,6 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_PREINTEGRATION:
         overrides_add(&options->overrides, "render.preintegration", "true");
         break;
-    case KEY_ORDER:
-        overrides_add_text(&options->overrides, "render.order", argument);
-        break;
     case KEY_STEP_MM:
         overrides_add(&options->overrides, "render.step", "null");
         good = add_number(options, "--step-mm", "render.step_mm", argument);
@@ -342,17 +372,8 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_PHASE:
         good = add_number(options, "--phase", "render.phase", argument);
         break;
-    case KEY_SKIP:
-        overrides_add_text(&options->overrides, "render.skip", argument);
-        break;
     case KEY_SUPERSAMPLE:
         good = add_integer(options, "--supersample", "render.supersampling.n", argument);
-        break;
-    case KEY_PATTERN:
-        overrides_add_text(&options->overrides, "render.supersampling.pattern", argument);
-        break;
-    case KEY_RECONSTRUCTION:
-        overrides_add_text(&options->overrides, "render.supersampling.filter", argument);
         break;
     case KEY_ADAPTIVE:
         good = add_number(options, "--adaptive", "render.supersampling.adaptive", argument);
@@ -363,32 +384,23 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_JITTER:
         overrides_add(&options->overrides, "render.jitter", "true");
         break;
-    case KEY_DEBUG:
-        overrides_add_text(&options->overrides, "render.debug", argument);
-        break;
-    case KEY_FILTER:
-        overrides_add_text(&options->overrides, "volumes.*.filter", argument);
-        break;
-    case KEY_GRADIENT:
-        overrides_add_text(&options->overrides, "volumes.*.gradient", argument);
-        break;
     case KEY_DENSITY:
         good = add_number(options, "--density", "volumes.*.density", argument);
         break;
-    case KEY_TRANSFER:
-        overrides_add_text(&options->overrides, "volumes.*.transfer", argument);
-        break;
     case KEY_SHADING:
-        good = add_shading(options, argument);
+        good = add_switch(options, "--shading", "volumes.*.shading", argument);
+        break;
+    case KEY_SHADOWS:
+        good = add_switch(options, "--shadows", "render.shadows", argument);
+        break;
+    case KEY_AMBIENT_OCCLUSION:
+        good = add_switch(options, "--ambient-occlusion", "render.ambient_occlusion", argument);
         break;
     case KEY_BACKGROUND:
         add_background(options, argument);
         break;
     case KEY_DEPTH:
         good = add_integer(options, "--depth", "output.depth", argument);
-        break;
-    case KEY_ALPHA:
-        overrides_add_text(&options->overrides, "output.alpha", argument);
         break;
     case KEY_FPS:
         good = add_number(options, "--fps", "animation.fps", argument);
@@ -436,6 +448,9 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_WORK_GROUP:
         good = cli_integer("--work-group", argument, 1, &options->renderer.work_group);
+        break;
+    case KEY_COMPUTE_UNITS:
+        good = cli_integer("--compute-units", argument, 1, &options->renderer.compute_units);
         break;
     case ARGP_KEY_ARGS:
         options->inputs = state->argv + state->next;

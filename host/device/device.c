@@ -62,7 +62,27 @@ static int select_device(const struct pel_device_info *infos, int count, const c
     return best;
 }
 
-struct pel_device *pel_device_open(const char *selector) {
+// Takes some of the device's compute units.
+static bool divide(struct pel_device *device, int compute_units) {
+    const char *name = device->info.name;
+    if (compute_units > device->info.compute_units)
+        return pel_fail(PEL_ERROR_ARGUMENT, "%d compute units; device %s has %d", compute_units,
+                        name, device->info.compute_units);
+    if (compute_units == device->info.compute_units)
+        return true;
+    const cl_device_partition_property properties[] = {CL_DEVICE_PARTITION_BY_COUNTS, compute_units,
+                                                       CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    cl_device_id part;
+    cl_uint count;
+    if (clCreateSubDevices(device->id, properties, 1, &part, &count) != CL_SUCCESS || count < 1)
+        return pel_fail(PEL_ERROR_UNSUPPORTED, "device %s cannot be divided", name);
+    device->id = part;
+    device->divided = true;
+    device->info.compute_units = compute_units;
+    return true;
+}
+
+struct pel_device *pel_device_open(const char *selector, int compute_units) {
     if (!selector || !*selector)
         selector = getenv("PELLUCID_DEVICE");
     if (selector && !*selector)
@@ -81,6 +101,10 @@ struct pel_device *pel_device_open(const char *selector) {
     device->info = infos[chosen];
     device->platform = places[chosen].platform;
     device->id = places[chosen].id;
+    if (compute_units > 0 && !divide(device, compute_units)) {
+        pel_device_close(device);
+        return NULL;
+    }
     cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
                                           (cl_context_properties)device->platform, 0};
     cl_int status;
@@ -102,6 +126,8 @@ void pel_device_close(struct pel_device *device) {
         clReleaseCommandQueue(device->queue);
     if (device->context)
         clReleaseContext(device->context);
+    if (device->divided)
+        clReleaseDevice(device->id);
     free(device);
 }
 

@@ -12,9 +12,10 @@ struct pel_kernel;
 
 // ---- Devices -----------------------------------------------------------------------------------
 
-// Opens the device that `selector` names, as struct pel_renderer_options says. The caller owns it.
-// NULL (DEVICE, ARGUMENT) with a sentence that says what there is.
-struct pel_device *pel_device_open(const char *selector);
+// Opens the device that `selector` names, as struct pel_renderer_options says, or of one that can
+// be divided only that many compute units; 0: all. The caller owns it. NULL (DEVICE, ARGUMENT,
+// UNSUPPORTED) with a sentence that says what there is.
+struct pel_device *pel_device_open(const char *selector, int compute_units);
 void pel_device_close(struct pel_device *device);
 
 // What the device is like. Borrowed.

@@ -10,6 +10,7 @@ struct pel_device {
     struct pel_device_info info;
     cl_platform_id platform;
     cl_device_id id;
+    bool divided; // the id is of a part of a device, and ours to release
     cl_context context;
     cl_command_queue queue;
     uint64_t allocated_bytes, uploaded_bytes;

@@ -458,7 +458,7 @@ struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *opti
     if (!renderer)
         return NULL;
     renderer->options = chosen;
-    renderer->device = pel_device_open(chosen.device);
+    renderer->device = pel_device_open(chosen.device, chosen.compute_units);
     renderer->options.device = NULL; // it was borrowed for this call
     renderer->residency.device = renderer->device;
     if (!renderer->device) {

@@ -58,6 +58,9 @@ bool pel_settings_check_options(const struct pel_renderer_options *options) {
                         lanes);
     if (group < 0 || (group & (group - 1)) != 0)
         return pel_fail(PEL_ERROR_ARGUMENT, "work-group of %d, must be a power of two", group);
+    if (options->compute_units < 0)
+        return pel_fail(PEL_ERROR_ARGUMENT, "%d compute units, must be at least 1",
+                        options->compute_units);
     // A tile has at least four packets above each other, however many rays there are in one.
     if (rows < 0 || rows > TILE_PX / 4 || (rows & (rows - 1)) != 0)
         return pel_fail(PEL_ERROR_ARGUMENT, "work-groups of %d rows, must be 1, 2 or 4", rows);

@@ -45,6 +45,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
                                  : WORLD_PART_MAX,
         .shading = world->shaded,
         .style = world->styled,
+        .secondary = world->secondary,
         .table_linear = world->table_linear,
         .supersampling = world->supersampling,
         .jitter = world->jitter,
@@ -63,10 +64,12 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
              "-cl-std=CL1.2 -DLANES=%d -DREADER=%d -DVOXELS=%d -DFILTERS=%d -DMIXING=%d -DSKIP=%d "
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
              "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d "
-             "-DGROUP_ROWS=%d -DPOOL=%d -DCLIP=%d -DSTYLE=%d -DLIVE=%d -DMASKED=%d",
+             "-DGROUP_ROWS=%d -DPOOL=%d -DCLIP=%d -DSTYLE=%d -DLIVE=%d -DMASKED=%d "
+             "-DSECONDARY=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
              variant->jitter, variant->debug, variant->probe, variant->models, variant->group_rows,
-             variant->pool, variant->clip, variant->style, variant->live, variant->masked);
+             variant->pool, variant->clip, variant->style, variant->live, variant->masked,
+             variant->secondary);
 }

@@ -21,6 +21,7 @@ struct pel_variant {
     bool clip;      // some part is clipped
     bool masked;    // where some part is shown, another volume decides
     bool shading;   // some part needs normals
+    int secondary;  // SECONDARY_*
     bool style;     // other gradients than central differences, or opacity that follows them
     bool table_linear;
     bool supersampling; // one of several rays of each pixel at a time

@@ -149,6 +149,25 @@ static void save_picture(struct pel_state *state) {
     pel_state_say(state, "%s %s", good ? "saving" : "too many pictures wait to be saved:", path);
 }
 
+static bool use_film(struct pel_state *state, enum pel_action action) {
+    switch (action) {
+    case PEL_ACTION_KEYFRAME:
+        pel_film_keep(state);
+        return true;
+    case PEL_ACTION_KEYFRAME_BACK:
+        pel_film_take_back(state);
+        return true;
+    case PEL_ACTION_PLAY:
+        pel_film_toggle(state);
+        return true;
+    case PEL_ACTION_LEAVE_FILM:
+        pel_film_leave(state, false);
+        return true;
+    default:
+        return false;
+    }
+}
+
 static bool use_window(struct pel_state *state, enum pel_action action) {
     switch (action) {
     case PEL_ACTION_UNDO:
@@ -301,7 +320,8 @@ static bool change_volume(struct pel_state *state, enum pel_action action) {
 
 void pel_command_do(struct pel_state *state, enum pel_action action, int number) {
     if (!move_camera(state, action, number) && !use_window(state, action) &&
-        !change_volume(state, action) && !pel_command_pose(state, action, number))
+        !use_film(state, action) && !change_volume(state, action) &&
+        !pel_command_pose(state, action, number))
         pel_command_look(state, action);
     state->redraw = true;
 }

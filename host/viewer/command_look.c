@@ -156,6 +156,7 @@ void pel_command_add_clip(struct pel_state *state, enum pel_clip_kind kind) {
         clip.size[i] = (bounds.high[i] - bounds.low[i]) / 2;
     }
     scene->clips[scene->clip_count++] = clip;
+    state->clip = scene->clip_count;
     pel_state_change(state, "add a cut");
 }
 
@@ -163,6 +164,8 @@ void pel_command_remove_clip(struct pel_state *state) {
     if (state->scene->clip_count == 0)
         return;
     state->scene->clip_count--;
+    if (state->clip > state->scene->clip_count)
+        state->clip = state->scene->clip_count;
     pel_state_change(state, "remove a cut");
 }
 
@@ -171,7 +174,10 @@ static bool change_cuts(struct pel_state *state, enum pel_action action) {
         pel_command_add_clip(state, PEL_CLIP_PLANE);
     else if (action == PEL_ACTION_UNCLIP)
         pel_command_remove_clip(state);
-    return action == PEL_ACTION_CLIP || action == PEL_ACTION_UNCLIP;
+    else if (action == PEL_ACTION_CLIP_HANDLES)
+        state->clip = (state->clip + 1) % (state->scene->clip_count + 1);
+    return action == PEL_ACTION_CLIP || action == PEL_ACTION_UNCLIP ||
+           action == PEL_ACTION_CLIP_HANDLES;
 }
 
 static bool change_comparison(struct pel_state *state, enum pel_action action) {

@@ -37,6 +37,26 @@ static void place_in_view(const struct pel_state *state, int view, const struct 
 
 // ---- The mouse ---------------------------------------------------------------------------------
 
+// The handle of what cuts under the pointer, if there is one: faces of a box before its gizmo.
+static enum pel_drag take_clip(struct pel_state *state) {
+    struct pel_gizmo gizmo;
+    struct pel_matrix as_it_is = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+    double reach = reach_px * state->windows[0].scale;
+    if (state->drag_view >= state->picture_count || !pel_state_clip_gizmo(state, &gizmo))
+        return PEL_DRAG_NONE;
+    state->clip_before = state->scene->clips[state->clip - 1];
+    if (state->clip_before.kind == PEL_CLIP_BOX) {
+        struct pel_handle_box box = pel_clip_box(&state->clip_before);
+        state->face = pel_box_hit(&box, &gizmo.view, state->drag_px, reach);
+        if (state->face >= 0)
+            return PEL_DRAG_FACE;
+    }
+    enum pel_handle handle = pel_gizmo_hit(&gizmo, state->drag_px, reach);
+    bool taken = handle != PEL_HANDLE_NONE &&
+                 pel_handle_begin(&state->handle_drag, &gizmo, handle, state->drag_px, &as_it_is);
+    return taken ? PEL_DRAG_CLIP : PEL_DRAG_NONE;
+}
+
 // The selected volume's handle under the pointer, if there is one.
 static bool take_handle(struct pel_state *state) {
     struct pel_gizmo gizmo;
@@ -114,7 +134,9 @@ static void begin_left_drag(struct pel_state *state, int modifiers) {
     } else if (modifiers & PEL_SHIFT) {
         state->drag = begin_levels(state) ? PEL_DRAG_LEVELS : PEL_DRAG_NONE;
     } else {
-        state->drag = take_handle(state) ? PEL_DRAG_HANDLE : PEL_DRAG_TURN;
+        state->drag = take_clip(state);
+        if (state->drag == PEL_DRAG_NONE)
+            state->drag = take_handle(state) ? PEL_DRAG_HANDLE : PEL_DRAG_TURN;
     }
 }
 
@@ -124,6 +146,7 @@ static void begin_drag(struct pel_state *state, const struct pel_event *event) {
         return;
     bool shift = event->modifiers & PEL_SHIFT;
     pel_state_begin_gesture(state);
+    pel_film_leave(state, true);
     state->drag_view = view;
     place_in_view(state, view, event, state->drag_px);
     for (int i = 0; i < 2; i++)
@@ -142,16 +165,50 @@ static void begin_drag(struct pel_state *state, const struct pel_event *event) {
     }
 }
 
+static bool is_turning(const struct pel_state *state) {
+    return state->handle_drag.handle >= PEL_HANDLE_TURN_X &&
+           state->handle_drag.handle != PEL_HANDLE_MOVE_VIEW;
+}
+
+// With Control by whole millimetres, and by five degrees.
+static double snap_of(const struct pel_state *state, int modifiers) {
+    return modifiers & PEL_CONTROL ? (is_turning(state) ? 5 : 1) : 0;
+}
+
 static void drag_handle(struct pel_state *state, const double to_px[2], int modifiers) {
     struct pel_instance *instance = &state->scene->instances[state->selected];
-    bool turns = state->handle_drag.handle >= PEL_HANDLE_TURN_X &&
-                 state->handle_drag.handle != PEL_HANDLE_MOVE_VIEW;
-    double snap = modifiers & PEL_CONTROL ? (turns ? 5 : 1) : 0;
-    if (!pel_handle_drag(&state->handle_drag, to_px, snap, &instance->transform))
+    bool turns = is_turning(state);
+    if (!pel_handle_drag(&state->handle_drag, to_px, snap_of(state, modifiers),
+                         &instance->transform))
         return;
     pel_state_say(state, "%s: %.3g %s", instance->name, state->handle_drag.amount,
                   turns ? "degrees" : "mm");
     pel_state_change(state, turns ? "turn a volume" : "move a volume");
+}
+
+static void drag_clip(struct pel_state *state, const double to_px[2], int modifiers) {
+    struct pel_clip *clip = &state->scene->clips[state->clip - 1];
+    struct pel_matrix transform;
+    struct pel_view view;
+    if (state->drag == PEL_DRAG_FACE) {
+        struct pel_handle_box before = pel_clip_box(&state->clip_before), box;
+        if (!pel_state_view(state, 0, &view) ||
+            !pel_box_drag(&box, &before, state->face, &view, state->drag_from_px, to_px))
+            return;
+        pel_clip_set_box(clip, &box);
+        pel_state_say(state, "box of %.4g x %.4g x %.4g mm", clip->size[0], clip->size[1],
+                      clip->size[2]);
+    } else if (clip->kind == PEL_CLIP_PLANE && state->handle_drag.handle == PEL_HANDLE_MOVE_VIEW) {
+        pel_clip_push(clip, &state->clip_before, &state->handle_drag.gizmo.view,
+                      state->drag_from_px, to_px);
+    } else {
+        if (!pel_handle_drag(&state->handle_drag, to_px, snap_of(state, modifiers), &transform))
+            return;
+        pel_clip_move(clip, &state->clip_before, &transform);
+        pel_state_say(state, "cut: %.3g %s", state->handle_drag.amount,
+                      is_turning(state) ? "degrees" : "mm");
+    }
+    pel_state_change(state, "clipping");
 }
 
 // To the right the window gets wider, upwards the level lower, so that more is seen.
@@ -193,6 +250,10 @@ static void drag(struct pel_state *state, const struct pel_event *event) {
     case PEL_DRAG_HANDLE:
         drag_handle(state, to_px, event->modifiers);
         return;
+    case PEL_DRAG_CLIP:
+    case PEL_DRAG_FACE:
+        drag_clip(state, to_px, event->modifiers);
+        return;
     case PEL_DRAG_LEVELS:
         drag_levels(state, to_px);
         return;
@@ -226,6 +287,7 @@ static void wheel(struct pel_state *state, const struct pel_event *event) {
         state->slices_old = state->redraw = true;
         return;
     }
+    pel_film_leave(state, true);
     pel_navigation_wheel(&state->navigation, size, at_px, event->wheel);
     pel_state_move_camera(state);
 }
@@ -279,6 +341,7 @@ static void press(struct pel_state *state, const struct pel_event *event) {
         return;
     if (!state->held)
         pel_state_begin_gesture(state);
+    pel_film_leave(state, true);
     pel_navigation_begin(&state->navigation);
     state->held |= 1u << action;
     move(state, 1u << action, touch_s);
@@ -297,7 +360,7 @@ static void release(struct pel_state *state, const struct pel_event *event) {
 // ---- Both --------------------------------------------------------------------------------------
 
 bool pel_hand_is_busy(const struct pel_state *state) {
-    return state->held || state->navigation.duration_s > 0;
+    return state->held || state->navigation.duration_s > 0 || state->film.playing;
 }
 
 void pel_hand_tick(struct pel_state *state, double seconds) {
@@ -305,6 +368,7 @@ void pel_hand_tick(struct pel_state *state, double seconds) {
         move(state, state->held, fmin(seconds, 0.1));
     if (pel_navigation_tick(&state->navigation, seconds))
         pel_state_move_camera(state);
+    pel_film_tick(state, seconds);
 }
 
 void pel_hand_react(struct pel_state *state, const struct pel_event *event) {

@@ -68,8 +68,7 @@ bool pel_gizmo_make(struct pel_gizmo *gizmo, const struct pel_scene *scene, int 
     return pel_view_project(view, gizmo->centre, pixel);
 }
 
-// ---- What is drawn, and hit
-// ----------------------------------------------------------------------
+// ---- What is drawn, and hit --------------------------------------------------------------------
 
 static bool is_usable(const struct pel_gizmo *gizmo, enum pel_handle handle) {
     double sight[3], direction[3];
@@ -109,7 +108,7 @@ static int shape_of(enum pel_handle handle, double along[PEL_HANDLE_POINTS][2]) 
 int pel_gizmo_outline(const struct pel_gizmo *gizmo, enum pel_handle handle,
                       double pixels[PEL_HANDLE_POINTS][2]) {
     double u[3], v[3];
-    if (handle == PEL_HANDLE_NONE || !is_usable(gizmo, handle))
+    if (handle == PEL_HANDLE_NONE || gizmo->missing >> handle & 1 || !is_usable(gizmo, handle))
         return 0;
     int count = shape_of(handle, pixels);
     if (handle <= PEL_HANDLE_MOVE_Z)

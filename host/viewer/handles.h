@@ -31,6 +31,7 @@ struct pel_gizmo {
     double centre[3];  // of the volume's box, in the world
     double axes[3][3]; // unit vectors of the world
     double size_mm;    // of its arrows
+    unsigned missing;  // bits of the handles that it has not
     struct pel_view view;
 };
 

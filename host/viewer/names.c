@@ -9,6 +9,42 @@ const char *const *pel_names_model(void) {
     return names;
 }
 
+// Of a scene that says nothing it is absorption.
+const char *const *pel_names_scene_model(void) {
+    static const char *const names[] = {"absorption (default)",
+                                        "absorption",
+                                        "emission",
+                                        "mip",
+                                        "minip",
+                                        "average",
+                                        "iso",
+                                        "thesis",
+                                        NULL};
+    return names;
+}
+
+const char *const *pel_names_gradient(void) {
+    static const char *const names[] = {"central differences", "Sobel", "analytic", NULL};
+    return names;
+}
+
+const char *const *pel_names_order(void) {
+    static const char *const names[] = {"front to back", "back to front", NULL};
+    return names;
+}
+
+const char *const *pel_names_pool(void) {
+    static const char *const names[] = {"automatic", "off", "on", NULL};
+    return names;
+}
+
+// The smallest is 8, each twice the one before.
+const char *const *pel_names_brick(void) {
+    static const char *const names[] = {"8 voxels",  "16 voxels",  "32 voxels",
+                                        "64 voxels", "128 voxels", NULL};
+    return names;
+}
+
 const char *const *pel_names_filter(void) {
     static const char *const names[] = {"linear", "nearest", "cubic B-spline", "Catmull-Rom", NULL};
     return names;

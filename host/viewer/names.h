@@ -4,6 +4,11 @@
 #define PEL_VIEWER_NAMES_H
 
 const char *const *pel_names_model(void);
+const char *const *pel_names_scene_model(void);
+const char *const *pel_names_gradient(void);
+const char *const *pel_names_order(void);
+const char *const *pel_names_pool(void);
+const char *const *pel_names_brick(void);
 const char *const *pel_names_filter(void);
 const char *const *pel_names_shading(void);
 const char *const *pel_names_light(void);

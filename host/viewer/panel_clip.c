@@ -3,9 +3,11 @@
 
 #include "viewer/panel.h"
 
-static void draw_clip(struct pel_state *state, struct pel_clip *clip) {
-    bool box = clip->kind == PEL_CLIP_BOX;
-    pel_widget_text(box ? "box" : "plane");
+static void draw_clip(struct pel_state *state, int number) {
+    struct pel_clip *clip = &state->scene->clips[number];
+    bool box = clip->kind == PEL_CLIP_BOX, handles = state->clip == number + 1;
+    if (pel_widget_check(box ? "handles of the box" : "handles of the plane", &handles))
+        state->clip = handles ? number + 1 : 0;
     if (pel_widget_drag3(box ? "middle" : "point", clip->point, 0.5, "%.1f"))
         pel_panel_changed(state, "clipping");
     pel_panel_settle(state);
@@ -28,7 +30,7 @@ void pel_panel_clip(struct pel_state *state) {
     struct pel_scene *scene = state->scene;
     for (int i = 0; i < scene->clip_count; i++) {
         pel_widget_push(i);
-        draw_clip(state, &scene->clips[i]);
+        draw_clip(state, i);
         pel_widget_pop();
     }
     if (pel_widget_button("add a plane (x)"))

@@ -1,4 +1,4 @@
-// panel_look.c - how the scene is seen: the camera, the background, lights, stereo, quality.
+// panel_look.c - how the scene is seen: the camera, the background, lights, stereo.
 #include <stdio.h>
 #include <string.h>
 
@@ -46,6 +46,11 @@ void pel_panel_look(struct pel_state *state) {
         pel_state_move_camera(state);
     }
     pel_panel_settle(state);
+    int model = (int)state->scene->render.model;
+    if (pel_widget_choose("model (all)", pel_names_scene_model(), &model)) {
+        state->scene->render.model = (enum pel_model)model;
+        pel_panel_changed(state, "optical model");
+    }
     if (pel_widget_colour("background", state->scene->background))
         pel_panel_changed(state, "background");
     pel_panel_settle(state);
@@ -115,6 +120,11 @@ void pel_panel_light(struct pel_state *state) {
             pel_panel_changed(state, "remove a light");
         }
     }
+    if (pel_widget_check("shadows", &scene->render.shadows.on))
+        pel_panel_changed(state, "shadows");
+    pel_widget_same_line();
+    if (pel_widget_check("ambient occlusion", &scene->render.ambient_occlusion.on))
+        pel_panel_changed(state, "ambient occlusion");
 }
 
 // ---- Stereo ------------------------------------------------------------------------------------
@@ -153,46 +163,10 @@ void pel_panel_stereo(struct pel_state *state) {
     snprintf(text, sizeof text, "eyes %.4g mm apart, converging at %.4g mm", used.separation_mm,
              used.convergence_mm);
     pel_widget_quiet_text(text);
+    if (pel_widget_check("no separation at all", &stereo->flat))
+        pel_panel_changed(state, "flat");
     if (pel_widget_check("exchange the eyes", &stereo->swap))
         pel_panel_changed(state, "exchange the eyes");
     if (pel_widget_check("turn the cameras inwards", &stereo->toe_in))
         pel_panel_changed(state, "toe-in");
-}
-
-// ---- Quality -----------------------------------------------------------------------------------
-
-void pel_panel_quality(struct pel_state *state) {
-    struct pel_render_settings *render = &state->scene->render;
-    struct pel_supersampling *rays = &render->supersampling;
-    pel_panel_slide_log(state, "step", &render->step, 0.1, 4, "%.2f voxels");
-    pel_panel_slide(state, "ray ends at", &render->termination, 0.5, 1, "%.3f opacity");
-    int n = rays->n > 1 ? rays->n : 1;
-    if (pel_widget_slide_int("n x n rays", &n, 1, PEL_SUPERSAMPLING_MAX)) {
-        rays->n = n;
-        pel_panel_changed(state, "supersampling");
-    }
-    pel_panel_settle(state);
-    if (n > 1) {
-        int pattern = (int)rays->pattern, filter = (int)rays->filter;
-        if (pel_widget_choose("pattern", pel_names_pattern(), &pattern)) {
-            rays->pattern = (enum pel_pattern)pattern;
-            pel_panel_changed(state, "pattern");
-        }
-        if (pel_widget_choose("reconstruction", pel_names_reconstruction(), &filter)) {
-            rays->filter = (enum pel_reconstruction)filter;
-            pel_panel_changed(state, "reconstruction");
-        }
-        pel_panel_slide(state, "adaptive beyond", &rays->adaptive, 0, 0.5, "%.3f");
-    }
-    int skip = (int)render->skip, debug = (int)render->debug;
-    if (pel_widget_choose("skip", pel_names_skip(), &skip)) {
-        render->skip = (enum pel_skip)skip;
-        pel_panel_changed(state, "skip");
-    }
-    if (pel_widget_check("jitter", &render->jitter))
-        pel_panel_changed(state, "jitter");
-    if (pel_widget_choose("debug view", pel_names_debug(), &debug)) {
-        render->debug = (enum pel_debug)debug;
-        pel_panel_changed(state, "debug view");
-    }
 }

@@ -5,7 +5,7 @@
 #include "viewer/panel.h"
 #include "viewer/show.h"
 
-static const uint32_t white = 0xFFFFFFFF, shade = 0xA0000000;
+static const uint32_t white = 0xFFFFFFFF, shade = 0xA0000000, taken = 0xFF40E0FF;
 
 // The faces of the patient that are seen, with their letters.
 static void draw_cube(const struct pel_state *state, const struct pel_view *view,
@@ -57,22 +57,14 @@ static struct pel_rectangle picture_place(const struct pel_screen_view *view) {
                                   view->whole[0], view->whole[1]};
 }
 
-// The gizmo: arrows red, green and blue along x, y and z, rings about them.
-static void draw_handles(const struct pel_state *state, int window,
-                         const struct pel_rectangle *where) {
+// A gizmo: arrows red, green and blue along x, y and z, rings about them.
+static void draw_gizmo(const struct pel_gizmo *gizmo, enum pel_handle hot,
+                       const struct pel_rectangle *where) {
     static const uint32_t colours[] = {0xFF5050FF, 0xFF50E050, 0xFFFF8050, 0xFFE0E0E0};
-    struct pel_gizmo gizmo;
-    if (!pel_state_gizmo(state, &gizmo))
-        return;
-    const double at[2] = {state->pointer_px[0] - where->x, state->pointer_px[1] - where->y};
-    enum pel_handle hot = state->drag == PEL_DRAG_HANDLE ? state->handle_drag.handle
-                          : window == state->pointer_window
-                              ? pel_gizmo_hit(&gizmo, at, 8 * state->windows[0].scale)
-                              : PEL_HANDLE_NONE;
     for (int handle = PEL_HANDLE_NONE + 1; handle < PEL_HANDLE_COUNT; handle++) {
         double points[PEL_HANDLE_POINTS][2];
-        int count = pel_gizmo_outline(&gizmo, (enum pel_handle)handle, points);
-        uint32_t colour = handle == (int)hot               ? 0xFF40E0FF
+        int count = pel_gizmo_outline(gizmo, (enum pel_handle)handle, points);
+        uint32_t colour = handle == (int)hot               ? taken
                           : handle >= PEL_HANDLE_MOVE_VIEW ? colours[3]
                                                            : colours[(handle - 1) % 3];
         for (int i = 0; i < count; i++)
@@ -80,6 +72,63 @@ static void draw_handles(const struct pel_state *state, int window,
         for (int i = 1; i < count; i++)
             pel_widget_line(points[i - 1], points[i], colour, handle == (int)hot ? 3 : 2);
     }
+}
+
+// The handle of a gizmo that is taken, or under the pointer.
+static enum pel_handle hot_handle(const struct pel_state *state, const struct pel_gizmo *gizmo,
+                                  enum pel_drag drag, const double at[2]) {
+    if (state->drag != PEL_DRAG_NONE)
+        return state->drag == drag ? state->handle_drag.handle : PEL_HANDLE_NONE;
+    return at ? pel_gizmo_hit(gizmo, at, 8 * state->windows[0].scale) : PEL_HANDLE_NONE;
+}
+
+static void draw_edge(const struct pel_view *view, const double ends[2][3],
+                      const struct pel_rectangle *where) {
+    double pixels[2][2];
+    if (!pel_view_project(view, ends[0], pixels[0]) || !pel_view_project(view, ends[1], pixels[1]))
+        return;
+    for (int end = 0; end < 2; end++)
+        pixels[end][0] += where->x, pixels[end][1] += where->y;
+    pel_widget_line(pixels[0], pixels[1], 0xC0E0C040, 1);
+}
+
+// The clip whose handles are shown: its outline, its gizmo, and discs on the faces of a box.
+static void draw_clip(const struct pel_state *state, const struct pel_rectangle *where,
+                      const double at[2]) {
+    struct pel_gizmo gizmo;
+    if (!pel_state_clip_gizmo(state, &gizmo))
+        return;
+    const struct pel_clip *clip = &state->scene->clips[state->clip - 1];
+    double lines[PEL_CLIP_LINES][2][3], reach_px = 8 * state->windows[0].scale;
+    int count = pel_clip_outline(clip, 1.6 * gizmo.size_mm, lines);
+    for (int i = 0; i < count; i++)
+        draw_edge(&gizmo.view, (const double(*)[3])lines[i], where);
+    struct pel_handle_box box = pel_clip_box(clip);
+    bool has_faces = clip->kind == PEL_CLIP_BOX;
+    int face = state->drag == PEL_DRAG_FACE ? state->face
+               : has_faces && at && state->drag == PEL_DRAG_NONE
+                   ? pel_box_hit(&box, &gizmo.view, at, reach_px)
+                   : -1;
+    draw_gizmo(&gizmo, face >= 0 ? PEL_HANDLE_NONE : hot_handle(state, &gizmo, PEL_DRAG_CLIP, at),
+               where);
+    for (int i = 0; has_faces && i < 6; i++) {
+        double middle[3], pixel[2];
+        pel_box_face(&box, i, middle);
+        if (!pel_view_project(&gizmo.view, middle, pixel))
+            continue;
+        pixel[0] += where->x, pixel[1] += where->y;
+        pel_widget_disc(pixel, 0.7 * reach_px, i == face ? taken : 0xFFE0C040, true);
+    }
+}
+
+// Handles of the selected volume and of what cuts; `at` is where the pointer is in the picture,
+// NULL when it is in another window.
+static void draw_handles(const struct pel_state *state, const struct pel_rectangle *where,
+                         const double at[2]) {
+    struct pel_gizmo gizmo;
+    if (pel_state_gizmo(state, &gizmo))
+        draw_gizmo(&gizmo, hot_handle(state, &gizmo, PEL_DRAG_HANDLE, at), where);
+    draw_clip(state, where, at);
 }
 
 // Where the pointer's ray first sees something, and what every volume is there.
@@ -164,7 +213,8 @@ void pel_panel_overlay(struct pel_state *state, int window) {
         draw_cube(state, &view, &shown->place);
         draw_scale(state, &view, &shown->place);
     }
-    draw_handles(state, window, &picture);
+    const double at[2] = {state->pointer_px[0] - picture.x, state->pointer_px[1] - picture.y};
+    draw_handles(state, &picture, window == state->pointer_window ? at : NULL);
     draw_comparison(state, &view, &picture);
     if (window == state->pointer_window)
         draw_values(state, &view, shown);

@@ -1,4 +1,5 @@
 // panel_volumes.c - the list of volumes, and what belongs to the selected one.
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -74,6 +75,77 @@ static void draw_choices(struct pel_state *state, struct pel_instance *instance)
     }
 }
 
+// Whether a volume may be the mask of another: neither itself nor masked by that one.
+static bool may_mask(const struct pel_scene *scene, int mask, int instance) {
+    for (int steps = 0; steps < scene->instance_count; steps++) {
+        if (mask == instance)
+            return false;
+        if (scene->instances[mask].mask.range_count == 0)
+            return true;
+        mask = scene->instances[mask].mask.instance;
+    }
+    return false;
+}
+
+// A label map selects by all its labels at first, another volume by its upper half of values.
+static void set_mask(struct pel_state *state, struct pel_instance *instance, int mask) {
+    instance->mask = (struct pel_mask){0};
+    if (mask >= 0) {
+        int volume = state->scene->instances[mask].volume;
+        const struct pel_statistics *statistics = &state->scene->statistics[volume];
+        double middle = (statistics->min + statistics->max) / 2;
+        instance->mask.instance = mask;
+        instance->mask.range_count = 1;
+        instance->mask.ranges[0] =
+            (struct pel_value_range){state->scene->volumes[volume]->labels ? 1 : middle, INFINITY};
+    }
+    pel_panel_changed(state, "mask");
+}
+
+static void draw_mask_values(struct pel_state *state, struct pel_instance *instance) {
+    // What is being typed stays until the mask changes, or another one is shown.
+    struct pel_mask *typed = &state->mask_typed;
+    if (typed->range_count != instance->mask.range_count ||
+        memcmp(typed->ranges, instance->mask.ranges, sizeof typed->ranges) != 0) {
+        *typed = instance->mask;
+        pel_mask_write_values(typed, state->mask_text, sizeof state->mask_text);
+    }
+    pel_widget_edit("values", state->mask_text, sizeof state->mask_text);
+    pel_widget_hint("labels, ranges such as 3..5, and >=0.5, with commas between them");
+    if (pel_widget_button("select these")) {
+        if (pel_mask_read_values(&instance->mask, state->mask_text))
+            pel_panel_changed(state, "mask");
+        else
+            pel_state_say(state, "%s", pel_error_message());
+    }
+    pel_widget_same_line();
+    if (pel_widget_check("elsewhere", &instance->mask.inverted))
+        pel_panel_changed(state, "mask");
+    pel_widget_hint("show the volume where none of these values is");
+}
+
+// Which other volume decides where this one is shown. With one volume there is none to choose.
+static void draw_mask(struct pel_state *state, struct pel_instance *instance) {
+    const struct pel_scene *scene = state->scene;
+    const char *names[PEL_VOLUME_MAX + 1] = {"everywhere"};
+    int masks[PEL_VOLUME_MAX] = {-1}, count = 1, chosen = 0;
+    for (int k = 0; k < scene->instance_count; k++) {
+        if (!may_mask(scene, k, state->selected))
+            continue;
+        if (instance->mask.range_count > 0 && instance->mask.instance == k)
+            chosen = count;
+        names[count] = scene->instances[k].name;
+        masks[count++] = k;
+    }
+    if (scene->instance_count < 2)
+        return;
+    if (pel_widget_choose("shown where", names, &chosen))
+        set_mask(state, instance, masks[chosen]);
+    pel_widget_hint("where another volume has some values, such as labels");
+    if (instance->mask.range_count > 0)
+        draw_mask_values(state, instance);
+}
+
 // What `pellucid info` says, in short.
 static void draw_information(const struct pel_state *state, const struct pel_instance *instance) {
     const struct pel_volume *volume = state->scene->volumes[instance->volume];
@@ -97,5 +169,6 @@ void pel_panel_volumes(struct pel_state *state) {
     draw_buttons(state);
     struct pel_instance *instance = &state->scene->instances[state->selected];
     draw_choices(state, instance);
+    draw_mask(state, instance);
     draw_information(state, instance);
 }

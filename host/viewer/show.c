@@ -24,8 +24,9 @@ int pel_show_scene_count(const struct pel_state *state) {
 struct pel_scene *pel_show_scene(const struct pel_state *state, int number) {
     int last = state->scene->instance_count - 1, side = number / state->picture_count;
     int instance = state->sides[side] < last ? state->sides[side] : last;
+    const struct pel_scene *shown = pel_film_shown(state);
     struct pel_scene *scene =
-        compares(state) ? pel_compare_side(state->scene, instance) : pel_scene_copy(state->scene);
+        compares(state) ? pel_compare_side(shown, instance) : pel_scene_copy(shown);
     if (scene)
         pel_screen_fit_scene(state, number % state->picture_count, scene);
     return scene;

@@ -12,6 +12,8 @@ void pel_state_renew(struct pel_state *state) {
 }
 
 void pel_state_change(struct pel_state *state, const char *what) {
+    // What is worked on is the scene.
+    pel_film_leave(state, false);
     state->slices_old = true;
     if (!pel_history_record(state->history, state->scene, what, state->gesture))
         pel_state_say(state, "this cannot be undone: %s", pel_error_message());
@@ -32,6 +34,7 @@ void pel_state_move_camera(struct pel_state *state) {
 }
 
 void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene) {
+    pel_film_leave(state, false);
     pel_scene_destroy(state->scene);
     state->scene = scene;
     if (state->selected >= scene->instance_count)
@@ -43,7 +46,7 @@ void pel_state_set_scene(struct pel_state *state, struct pel_scene *scene) {
 
 bool pel_state_view(const struct pel_state *state, int number, struct pel_view *view) {
     const int *whole = state->views[number].whole;
-    return pel_view_make(view, &state->scene->camera, whole[0], whole[1]);
+    return pel_view_make(view, &pel_film_shown(state)->camera, whole[0], whole[1]);
 }
 
 bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
@@ -51,6 +54,14 @@ bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
     return state->handles && pel_state_view(state, 0, &view) &&
            pel_gizmo_make(gizmo, state->scene, state->selected, &view, 90 * state->windows[0].scale,
                           false);
+}
+
+bool pel_state_clip_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
+    struct pel_view view;
+    return state->clip > 0 && state->clip <= state->scene->clip_count &&
+           pel_state_view(state, 0, &view) &&
+           pel_clip_gizmo(gizmo, &state->scene->clips[state->clip - 1], &view,
+                          70 * state->windows[0].scale);
 }
 
 double pel_state_aspect(const struct pel_state *state) {

@@ -3,7 +3,9 @@
 #ifndef PEL_VIEWER_STATE_H
 #define PEL_VIEWER_STATE_H
 
+#include "viewer/clip_handles.h"
 #include "viewer/compare.h"
+#include "viewer/film.h"
 #include "viewer/handles.h"
 #include "viewer/history.h"
 #include "viewer/navigation.h"
@@ -41,6 +43,8 @@ enum pel_drag {
     PEL_DRAG_ZOOM,
     PEL_DRAG_TILT,
     PEL_DRAG_HANDLE,
+    PEL_DRAG_CLIP,   // what cuts, by its gizmo
+    PEL_DRAG_FACE,   // a face of a box that cuts
     PEL_DRAG_CROSS,  // the cross-hair, in a slice
     PEL_DRAG_SPLIT,  // the line between two volumes
     PEL_DRAG_LEVELS, // window and level of the selected volume
@@ -58,11 +62,14 @@ struct pel_state {
     int preset;                       // the last one that a key chose
 
     // The hand.
-    uint32_t held;      // bits of the actions whose keys are down
-    enum pel_drag drag; //
-    int drag_view;      // where it began
-    double drag_px[2];  // where the pointer was last, from the view's corner
-    bool handles;       // are shown
+    uint32_t held;               // bits of the actions whose keys are down
+    enum pel_drag drag;          //
+    int drag_view;               // where it began
+    double drag_px[2];           // where the pointer was last, from the view's corner
+    bool handles;                // of the selected volume are shown
+    int clip;                    // whose handles are shown, counted from 1; 0 = none
+    int face;                    // of a box that is dragged
+    struct pel_clip clip_before; // when the drag began
     struct pel_handle_drag handle_drag;
     struct pel_transfer *levels_before; // owned; the transfer function when a drag of levels began
     double drag_from_px[2];             // where the drag began
@@ -77,6 +84,8 @@ struct pel_state {
     int window_count;
     struct pel_worker *worker;
 
+    struct pel_film film; // the scene's animation
+
     // Comparing.
     struct pel_compare compare;
     int sides[2];         // instances
@@ -86,6 +95,10 @@ struct pel_state {
     bool crossed;         // it has a place
     bool slices_windowed; // values as grey
     bool slices_old;      // slices have to be rendered anew
+
+    // The values of the selected volume's mask, as they are typed.
+    char mask_text[128];
+    struct pel_mask mask_typed; // the mask that they were written from
 
     // The plot of the transfer function.
     int opacity_point, colour_point; // taken last
@@ -142,6 +155,9 @@ bool pel_state_view(const struct pel_state *state, int number, struct pel_view *
 
 // The gizmo of the selected volume in the picture, whole; false when it is not shown.
 bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo);
+
+// The gizmo of the clip whose handles are shown; false when there is none.
+bool pel_state_clip_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo);
 
 // Width over height of the picture that the camera is for.
 double pel_state_aspect(const struct pel_state *state);

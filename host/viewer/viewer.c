@@ -298,6 +298,7 @@ enum pel_error pel_viewer_run(const struct pel_viewer_options *options, char *se
         code = loop(state, sentence, bytes);
     pel_worker_destroy(state->worker);
     pel_show_finish(state);
+    pel_scene_destroy(state->film.scene);
     pel_screen_close(state);
     pel_window_stop();
     pel_event_finish(&state->queue);

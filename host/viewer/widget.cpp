@@ -35,28 +35,32 @@ void style(float scale) {
     style.ScaleAllSizes(scale);
 }
 
-void map_keys(ImGuiIO &io) {
-    io.KeyMap[ImGuiKey_Tab] = PEL_KEY_TAB;
-    io.KeyMap[ImGuiKey_LeftArrow] = PEL_KEY_LEFT;
-    io.KeyMap[ImGuiKey_RightArrow] = PEL_KEY_RIGHT;
-    io.KeyMap[ImGuiKey_UpArrow] = PEL_KEY_UP;
-    io.KeyMap[ImGuiKey_DownArrow] = PEL_KEY_DOWN;
-    io.KeyMap[ImGuiKey_PageUp] = PEL_KEY_PAGE_UP;
-    io.KeyMap[ImGuiKey_PageDown] = PEL_KEY_PAGE_DOWN;
-    io.KeyMap[ImGuiKey_Home] = PEL_KEY_HOME;
-    io.KeyMap[ImGuiKey_End] = PEL_KEY_END;
-    io.KeyMap[ImGuiKey_Delete] = PEL_KEY_DELETE;
-    io.KeyMap[ImGuiKey_Backspace] = PEL_KEY_BACKSPACE;
-    io.KeyMap[ImGuiKey_Enter] = PEL_KEY_ENTER;
-    io.KeyMap[ImGuiKey_Escape] = PEL_KEY_ESCAPE;
-    io.KeyMap[ImGuiKey_Space] = ' ';
-    io.KeyMap[ImGuiKey_A] = 'a';
-    io.KeyMap[ImGuiKey_C] = 'c';
-    io.KeyMap[ImGuiKey_V] = 'v';
-    io.KeyMap[ImGuiKey_X] = 'x';
-    io.KeyMap[ImGuiKey_Y] = 'y';
-    io.KeyMap[ImGuiKey_Z] = 'z';
-}
+// The keys that text fields know.
+const struct {
+    ImGuiKey theirs;
+    int ours;
+} keys[] = {
+    {ImGuiKey_Tab, PEL_KEY_TAB},
+    {ImGuiKey_LeftArrow, PEL_KEY_LEFT},
+    {ImGuiKey_RightArrow, PEL_KEY_RIGHT},
+    {ImGuiKey_UpArrow, PEL_KEY_UP},
+    {ImGuiKey_DownArrow, PEL_KEY_DOWN},
+    {ImGuiKey_PageUp, PEL_KEY_PAGE_UP},
+    {ImGuiKey_PageDown, PEL_KEY_PAGE_DOWN},
+    {ImGuiKey_Home, PEL_KEY_HOME},
+    {ImGuiKey_End, PEL_KEY_END},
+    {ImGuiKey_Delete, PEL_KEY_DELETE},
+    {ImGuiKey_Backspace, PEL_KEY_BACKSPACE},
+    {ImGuiKey_Enter, PEL_KEY_ENTER},
+    {ImGuiKey_Escape, PEL_KEY_ESCAPE},
+    {ImGuiKey_Space, ' '},
+    {ImGuiKey_A, 'a'},
+    {ImGuiKey_C, 'c'},
+    {ImGuiKey_V, 'v'},
+    {ImGuiKey_X, 'x'},
+    {ImGuiKey_Y, 'y'},
+    {ImGuiKey_Z, 'z'},
+};
 
 } // namespace
 
@@ -72,7 +76,8 @@ bool pel_widget_start(int window, double scale) {
     // Until the pointer is seen it is nowhere.
     io.MousePos = ImVec2(-1e6f, -1e6f);
     style(static_cast<float>(scale));
-    map_keys(io);
+    for (const auto &key : keys)
+        io.KeyMap[key.theirs] = key.ours;
     return ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 

@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/math.h"
 
-static const char *const model_names[] = {"default", "absorption", "emission", "mip",
-                                          "minip",   "average",    "iso",      "thesis"};
+static const char *const model_names[] = {"default", "absorption", "emission", "mip", "minip",
+                                          "average", "iso",        "thesis",   NULL};
 
 static bool is_projection(enum pel_model model) {
     return model == PEL_MODEL_MIP || model == PEL_MODEL_MINIP || model == PEL_MODEL_AVERAGE;
@@ -222,4 +222,8 @@ bool pel_model_fill_part(struct part *part, const struct pel_scene *scene,
     if (model == PEL_MODEL_ISO)
         fill_surfaces(part, instance, table, &scene->statistics[instance->volume]);
     return true;
+}
+
+const char *const *pel_model_names(void) {
+    return model_names;
 }

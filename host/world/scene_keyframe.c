@@ -2,6 +2,7 @@
 //
 // The scene as it stands is written and becomes what its animation acts upon, so that what was
 // changed since it was loaded stays. Other tracks than the camera's stay, too.
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,26 +85,115 @@ static bool put(const struct pel_scene *scene, json_t *root, const struct pel_ke
     return !writer.failed;
 }
 
-bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
-                             int count, double fps) {
-    if (!check(keyframes, count, fps))
-        return false;
+// The scene as it stands, as JSON; NULL: MEMORY, ARGUMENT.
+static json_t *write_root(const struct pel_scene *scene) {
     char *text = pel_scene_text(scene, NULL);
     json_t *root = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
-    if (!root)
-        return false;
-    struct pel_timeline timeline = scene->timeline;
-    timeline.fps = fps;
+    return root;
+}
+
+// Takes the root as what the scene is made of from now on.
+static bool take_root(struct pel_scene *scene, json_t *root) {
     const struct pel_scene_document document = {0};
-    struct pel_scene_source *source = put(scene, root, keyframes, count, &timeline)
-                                          ? pel_scene_source_create(&document, root)
-                                          : NULL;
-    json_decref(root);
+    struct pel_scene_source *source = pel_scene_source_create(&document, root);
     if (!source)
         return false;
     pel_scene_source_destroy(scene->source);
     scene->source = source;
-    scene->timeline = timeline;
     return true;
+}
+
+// ---- Reading back ------------------------------------------------------------------------------
+
+static bool read_triple(const json_t *list, double out[3]) {
+    for (size_t i = 0; i < 3; i++) {
+        if (!json_is_number(json_array_get(list, i)))
+            return false;
+        out[i] = json_number_value(json_array_get(list, i));
+    }
+    return true;
+}
+
+// A whole camera; what it does not say is the scene's.
+static bool read_viewpoint(const json_t *value, struct pel_camera *camera) {
+    const json_t *fov = json_object_get(value, "fov"), *height = json_object_get(value, "height");
+    const json_t *parallel = json_object_get(value, "orthographic");
+    const json_t *shift = json_object_get(value, "shift");
+    if (!read_triple(json_object_get(value, "eye"), camera->eye) ||
+        !read_triple(json_object_get(value, "target"), camera->target) ||
+        !read_triple(json_object_get(value, "up"), camera->up))
+        return false;
+    if (json_is_number(fov))
+        camera->fov_deg = json_number_value(fov);
+    if (json_is_number(height))
+        camera->height_mm = json_number_value(height);
+    if (json_is_boolean(parallel))
+        camera->orthographic = json_is_true(parallel);
+    for (size_t i = 0; i < 2 && json_is_array(shift); i++)
+        camera->shift[i] = json_number_value(json_array_get(shift, i));
+    return true;
+}
+
+// When a value of a track is reached.
+static double time_of(const json_t *track, size_t value, size_t count,
+                      const struct pel_timeline *timeline) {
+    const json_t *time = json_array_get(json_object_get(track, "times"), value);
+    const json_t *frame = json_array_get(json_object_get(track, "frames"), value);
+    if (json_is_number(time))
+        return json_number_value(time);
+    if (json_is_number(frame))
+        return json_number_value(frame) / timeline->fps;
+    return count > 1
+               ? (timeline->frame_count - 1) / timeline->fps * (double)value / (double)(count - 1)
+               : 0;
+}
+
+int pel_scene_keyframes(const struct pel_scene *scene, struct pel_keyframe *keyframes, int most) {
+    const json_t *root = scene->source ? scene->source->root : NULL, *found = NULL, *track;
+    const json_t *tracks = json_object_get(json_object_get(root, "animation"), "tracks");
+    size_t i;
+    json_array_foreach(tracks, i, track) {
+        // Of several that move the camera none is the way by itself.
+        if (moves_camera(track) && found)
+            return 0;
+        if (moves_camera(track))
+            found = track;
+    }
+    const char *key = json_string_value(json_object_get(found, "key"));
+    const json_t *values = json_object_get(found, "values");
+    size_t count = json_array_size(values);
+    if (!key || strcmp(key, "camera") != 0 || count > INT_MAX)
+        return 0;
+    for (i = 0; i < count; i++) {
+        struct pel_keyframe keyframe = {time_of(found, i, count, &scene->timeline), scene->camera};
+        if (!read_viewpoint(json_array_get(values, i), &keyframe.camera))
+            return 0;
+        if (i < (size_t)most)
+            keyframes[i] = keyframe;
+    }
+    return (int)count;
+}
+
+// ---- Writing -----------------------------------------------------------------------------------
+
+bool pel_scene_rebase(struct pel_scene *scene) {
+    json_t *root = write_root(scene);
+    bool good = root && take_root(scene, root);
+    json_decref(root);
+    return good;
+}
+
+bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
+                             int count, double fps) {
+    if (!check(keyframes, count, fps))
+        return false;
+    json_t *root = write_root(scene);
+    struct pel_timeline timeline = scene->timeline;
+    timeline.fps = fps;
+    bool good = root && put(scene, root, keyframes, count, &timeline) && take_root(scene, root);
+    json_decref(root);
+    if (good)
+        scene->timeline = timeline;
+    return good;
 }

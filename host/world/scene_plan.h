@@ -69,7 +69,10 @@ bool pel_scene_read_transfer(struct pel_transfer **transfer, const struct pel_sc
 bool pel_scene_read_transfer_value(struct pel_transfer **transfer,
                                    const struct pel_scene_node *node);
 
+bool pel_scene_read_secondary(struct pel_render_settings *render,
+                              const struct pel_scene_node *node);
 bool pel_scene_read_lights(struct pel_scene *scene, const struct pel_scene_node *node);
+bool pel_scene_read_gradient(enum pel_gradient *gradient, const struct pel_scene_node *object);
 bool pel_scene_read_style(struct pel_instance *instance, const struct pel_scene_node *volume);
 bool pel_scene_read_material(struct pel_material *material, const struct pel_scene_node *volume);
 

@@ -13,11 +13,14 @@
 
 enum { PICTURE_MAX = 32768 };
 
-static const char *const render_keys[] = {
-    "comment",        "size",           "mixing",  "step",   "step_mm",
-    "phase",          "termination",    "origin",  "skip",   "bricks",
-    "supersampling",  "jitter",         "debug",   "model",  "order",
-    "emission_scale", "preintegration", "quality", "region", NULL};
+static const char *const render_keys[] = {"comment",        "size",           "mixing",
+                                          "step",           "step_mm",        "phase",
+                                          "termination",    "origin",         "skip",
+                                          "bricks",         "supersampling",  "jitter",
+                                          "debug",          "model",          "order",
+                                          "emission_scale", "preintegration", "quality",
+                                          "region",         "shadows",        "ambient_occlusion",
+                                          "filter",         "gradient",       NULL};
 static const char *const brick_keys[] = {"comment", "size", "cluster", "walk",
                                          "cull",    "pool", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
@@ -200,7 +203,8 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
         pel_node_get_name(&node, "skip", skip_names, &skip) &&
         read_bricks(&render->bricks, &node) && read_supersampling(&render->supersampling, &node) &&
         pel_node_get_bool(&node, "jitter", &render->jitter) &&
-        pel_node_get_name(&node, "debug", debug_names, &debug);
+        pel_node_get_name(&node, "debug", debug_names, &debug) &&
+        pel_scene_read_secondary(render, &node);
     render->mixing = (enum pel_mixing)mixing;
     render->origin = (enum pel_sample_origin)origin;
     render->skip = (enum pel_skip)skip;
@@ -224,6 +228,7 @@ static void write_render(struct pel_scene_writer *writer, json_t *scene) {
     write_supersampling(writer, object);
     pel_write_bool(writer, object, "jitter", render->jitter, false);
     pel_write_name(writer, object, "debug", debug_names, render->debug, PEL_DEBUG_NONE);
+    pel_scene_write_secondary(writer, object);
 }
 
 static bool read_output_file(struct pel_output_settings *output,

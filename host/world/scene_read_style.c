@@ -77,13 +77,17 @@ static bool read_silhouette(struct pel_silhouette *silhouette,
            pel_node_get_number(&node, "exponent", &exponent_range, &silhouette->exponent);
 }
 
-bool pel_scene_read_style(struct pel_instance *instance, const struct pel_scene_node *volume) {
-    int gradient = PEL_GRADIENT_CENTRAL;
-    bool good = pel_node_get_name(volume, "gradient", gradient_names, &gradient) &&
-                read_gradient_opacity(instance, volume) &&
-                read_silhouette(&instance->silhouette, volume);
-    instance->gradient = (enum pel_gradient)gradient;
+bool pel_scene_read_gradient(enum pel_gradient *gradient, const struct pel_scene_node *object) {
+    int which = (int)*gradient;
+    bool good = pel_node_get_name(object, "gradient", gradient_names, &which);
+    *gradient = (enum pel_gradient)which;
     return good;
+}
+
+bool pel_scene_read_style(struct pel_instance *instance, const struct pel_scene_node *volume) {
+    return pel_scene_read_gradient(&instance->gradient, volume) &&
+           read_gradient_opacity(instance, volume) &&
+           read_silhouette(&instance->silhouette, volume);
 }
 
 void pel_scene_write_style(struct pel_scene_writer *writer, json_t *volume,

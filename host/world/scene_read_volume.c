@@ -75,13 +75,27 @@ static bool read_name(struct pel_instance *instance, const struct pel_volume_pla
     return true;
 }
 
-static bool read_volume(struct pel_instance *instance, struct pel_volume_plan *plan) {
+// What volumes have that say nothing else: the scene's filter and gradient.
+static bool read_usual(struct pel_instance *usual, const struct pel_scene_node *scene) {
+    struct pel_scene_node render;
+    int filter = PEL_FILTER_LINEAR;
+    *usual = pel_instance_default();
+    if (!pel_node_member(&render, scene, "render"))
+        return true;
+    bool good = pel_node_get_name(&render, "filter", filter_names, &filter) &&
+                pel_scene_read_gradient(&usual->gradient, &render);
+    usual->filter = (enum pel_filter)filter;
+    return good;
+}
+
+static bool read_volume(struct pel_instance *instance, struct pel_volume_plan *plan,
+                        const struct pel_instance *usual) {
     const struct pel_scene_node *node = &plan->node;
     const struct pel_range density_range = {.low = 0, .high = 1e6};
     struct pel_scene_node member;
     bool visible = true;
-    int extent = PEL_EXTENT_CELL, filter = PEL_FILTER_LINEAR;
-    *instance = pel_instance_default();
+    int extent = PEL_EXTENT_CELL, filter = (int)usual->filter;
+    *instance = *usual;
     if (!pel_node_check_object(node, volume_keys) || !pel_scene_read_source(plan, node) ||
         !read_name(instance, plan) || !pel_node_get_bool(node, "visible", &visible) ||
         !pel_node_get_numbers(node, "spacing", 3, &pel_positive_number, plan->spacing) ||
@@ -170,11 +184,14 @@ bool pel_scene_read_volumes(struct pel_scene *scene, struct pel_scene_plan *plan
         return pel_node_fail(&plan->scene, "needs 'volumes'");
     if (!pel_node_check_list(&plan->volumes, 1, PEL_VOLUME_MAX))
         return false;
+    struct pel_instance usual;
+    if (!read_usual(&usual, &plan->scene))
+        return false;
     size_t count = json_array_size(plan->volumes.value);
     for (size_t i = 0; i < count; i++) {
         plan->volume[i].node = pel_node_element(&plan->volumes, i);
         scene->instance_count = (int)i + 1;
-        if (!read_volume(&scene->instances[i], &plan->volume[i]))
+        if (!read_volume(&scene->instances[i], &plan->volume[i], &usual))
             return false;
     }
     for (size_t i = 0; i < count; i++)

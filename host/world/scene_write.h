@@ -47,6 +47,7 @@ void pel_scene_write_settings(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_camera(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_viewpoint(struct pel_scene_writer *writer, json_t *object,
                                const struct pel_camera *camera); // with nothing left out
+void pel_scene_write_secondary(struct pel_scene_writer *writer, json_t *render);
 void pel_scene_write_lights(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_wall(struct pel_scene_writer *writer, json_t *root);
 void pel_scene_write_stereo(struct pel_scene_writer *writer, json_t *root);

@@ -17,6 +17,7 @@
 #include "world/mixing.h"
 #include "world/model.h"
 #include "world/pairs.h"
+#include "world/secondary.h"
 #include "world/step.h"
 #include "world/strength.h"
 #include "world/style.h"
@@ -419,7 +420,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     struct pel_table tables[PEL_VOLUME_MAX] = {{0}};
     bool good = build_tables(tables, world, scene);
     good = good && fill_instances(world, scene, layout, tables, centre) &&
-           fill_masks(world, scene, layout, centre);
+           fill_masks(world, scene, layout, centre) && pel_secondary_fill(world, scene);
     for (int k = 0; k < PEL_VOLUME_MAX; k++)
         pel_table_finish(&tables[k]);
     if (!good)
@@ -447,7 +448,8 @@ double pel_world_raw(const struct pel_volume *volume, double value) {
 }
 
 size_t pel_world_bytes(const struct pel_world *world) {
-    return offsetof(struct world, cuts) + (size_t)world->cut_count * sizeof *world->bytes.cuts;
+    int rows = world->cut_count + world->bytes.occlusion_count;
+    return offsetof(struct world, cuts) + (size_t)rows * sizeof *world->bytes.cuts;
 }
 
 void pel_world_finish(struct pel_world *world) {

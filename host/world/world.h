@@ -20,7 +20,8 @@ struct pel_world {
     int filters;        // FILTERS_*
     int mixing;         // MIXING_*
     int models;         // MODELS_*
-    int cut_count;      // of bytes.cuts, which end there
+    int secondary;      // SECONDARY_*
+    int cut_count;      // of bytes.cuts; directions of ambient occlusion come behind them
     bool clipped;       // some part has planes or boxes
     bool masked;        // where some part is shown, another volume decides
     bool table_linear;  // some table must be interpolated

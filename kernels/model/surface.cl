@@ -18,14 +18,13 @@ INLINE struct sample sample_between(MEMORY_PARAMETERS, const struct spot *spot, 
 }
 
 #if SHADING
-// Shades a colour at a place between samples, where the raw value is given.
-INLINE void shade_between(__constant struct world *world, MEMORY_PARAMETERS,
-                          const struct crossing *crossing, const struct spot *spot, real t, real raw,
-                          real *r, real *g, real *b) {
+// Shades a colour at a place between samples, where the raw value is given, in the lanes that show it.
+INLINE void shade_between(FRAME_PARAMETERS, MEMORY_PARAMETERS, const struct crossing *crossing,
+                          const struct spot *spot, real t, real raw, mask where, real *r, real *g, real *b) {
     const struct cursor *cursor = spot->cursor;
-    shade(world, spot->part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
+    shade(FRAME_ARGUMENTS, spot->part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
           SAMPLE_NUMBER(crossing, spot->c, t), cursor->ox + t * cursor->dx, cursor->oy + t * cursor->dy,
-          cursor->oz + t * cursor->dz, raw, r, g, b);
+          cursor->oz + t * cursor->dz, raw, where, r, g, b);
 }
 #endif
 
@@ -94,8 +93,7 @@ INLINE real find_surface(MEMORY_PARAMETERS, const struct spot *spot, real before
 #endif
 
 // The surfaces between the sample before and the spot. True where there is one.
-INLINE mask gather_surfaces(__constant struct world *world, MEMORY_PARAMETERS,
-                            struct gathered *gathered, const struct crossing *crossing,
+INLINE mask gather_surfaces(FRAME_PARAMETERS, MEMORY_PARAMETERS, struct gathered *gathered, const struct crossing *crossing,
                             const struct spot *spot, real raw) {
     mask known, met = (mask)(0);
     const real before = raw_before(world, MEMORY_ARGUMENTS, crossing, gathered, spot, &known);
@@ -119,7 +117,8 @@ INLINE mask gather_surfaces(__constant struct world *world, MEMORY_PARAMETERS,
 #if SHADING
         if (part->shading != SHADING_NONE) {
             const real t = find_surface(MEMORY_ARGUMENTS, spot, before, value);
-            shade_between(world, MEMORY_ARGUMENTS, crossing, spot, t, value, &r, &g, &b);
+            shade_between(FRAME_ARGUMENTS, MEMORY_ARGUMENTS, crossing, spot, t, value, crossed, &r,
+                          &g, &b);
         }
 #endif
         const real shown = CHOOSE((real)(0.0f), a, crossed);

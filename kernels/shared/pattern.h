@@ -30,6 +30,7 @@
 #define DRAW_PHASE 128  // + s: the phase of ray s
 #define DRAW_COLUMN 192 // + i: the shuffle in column i
 #define DRAW_ROW 200    // + j: and in row j
+#define DRAW_TURN 208   // + 0 to 2: the rotation of the directions around samples
 
 // A place in a pixel: from its left and top edge, in 2^-24 of its side, below 2^24.
 struct pattern_place {

@@ -68,6 +68,11 @@
 #define SHADING_BLINN_PHONG 1
 #define SHADING_PHONG 2
 
+// SECONDARY: which rays go on from the samples that are shaded, one bit each.
+#define SECONDARY_SHADOWS 1   // to each lamp
+#define SECONDARY_OCCLUSION 2 // around the normal
+#define OCCLUSION_MAX 64      // of these
+
 // Of a part: how its gradient is found. The knob STYLE is 1 when some part has another than central
 // differences, or opacity that follows the gradient.
 #define GRADIENT_CENTRAL 0

@@ -22,6 +22,9 @@
 // of values for each part, and a matrix between each part and one of its mask's.
 #define WORLD_CUT_MAX (32 * 16 * 3 + 32 * WORLD_PART_MAX + 3 * 32 * 32)
 
+// And behind them the directions of ambient occlusion.
+#define WORLD_ROW_MAX (WORLD_CUT_MAX + OCCLUSION_MAX)
+
 // The ray of picture-plane coordinates (u, v), in -1..1 upwards and to the right, starts at
 // eye + u * eye_right + v * eye_up and runs along forward + u * right + v * up.
 struct camera {
@@ -112,12 +115,16 @@ struct world {
     i32 lamp_count;
     i32 debug; // one of DEBUG_*
     i32 medium_count; // instances that are mixed
+    float shadow_step_mm, shadow_length_mm, shadow_strength;
+    float occlusion_step_mm, occlusion_radius_mm, occlusion_strength;
+    i32 occlusion_count; // directions,
+    i32 directions;      // and the index of the first one's row
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
-    float4 cuts[WORLD_CUT_MAX]; // only as many as there are reach the device
+    float4 cuts[WORLD_ROW_MAX]; // only as many as there are reach the device
 };
 
-SHARED_ASSERT(sizeof(struct world) == 224 + 48 * LAMP_MAX + 448 * WORLD_PART_MAX + 16 * WORLD_CUT_MAX,
+SHARED_ASSERT(sizeof(struct world) == 256 + 48 * LAMP_MAX + 448 * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
               world_size);
 
 #endif

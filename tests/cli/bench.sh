@@ -69,7 +69,7 @@ echo '{"median_ms": 0.5}'
 EOF
 chmod +x peer
 unset PELLUCID_TEST_DATA
-expect 0 '/ fake \|$' bench task --size 16x12 --frames 1 --peer 'fake=./peer {tf} {width} {height} {volumes}' --json task.json
+expect 0 '/ fake \|$' bench task --shading --size 16x12 --frames 1 --peer 'fake=./peer {tf} {width} {height} {volumes}' --json task.json
 grep -q "^pellucid: no task256.raw.gz .*own making" err || complain "nobody told that the volume is made up"
 grep -q "^pellucid: task: peer 'fake' is left out for T2, 8 volumes, 16x12: exit status 3" err ||
     complain "nobody told that the peer failed: $(cat err)"
@@ -79,18 +79,39 @@ for tf in T1 T2 T3; do
     done
 done
 check_lines task.json '[(c["tf"], c["volumes"]) for c in x if c["name"] == c["tf"]] == [(t, v) for t in ("T1", "T2", "T3") for v in (1, 2, 4, 8)]'
-check_lines task.json '[(c["name"], c["volumes"], x[c["baseline"] - 1]["volumes"]) for c in x if c["name"].startswith("T2, ")] == [("T2, " + way, v, v) for v in (1, 8) for way in ("grid", "distance")]'
-check_lines task.json 'all(c["data"] == "generated" and c["shaded"] is False for c in x)'
+check_lines task.json '[(c["name"], c["volumes"], x[c["baseline"] - 1]["volumes"]) for c in x if c["name"].startswith("T2, ") and not c["shaded"]] == [("T2, " + way, v, v) for v in (1, 8) for way in ("grid", "distance")]'
+check_lines task.json 'all(c["data"] == "generated" and c["shaded"] == ("shaded" in c["name"]) for c in x)'
+check_lines task.json '[(c["name"], x[c["baseline"] - 1]["name"]) for c in x if c["shaded"]][:3] == [("T1 shaded", "T1"), ("T1 shaded, grid", "T1 shaded"), ("T1 shaded, distance", "T1 shaded")]'
+check_lines task.json 'all(c["peers"]["fake"]["frames"] == (0 if c["shaded"] or c["volumes"] == 8 else 1) for c in x if "peers" in c)'
 check_lines task.json 'all(abs(c["peers"]["fake"]["ratio"] * 0.5 / c["median_ms"] - 1) < 0.01 for c in x[:3])'
 check_lines task.json 'x[3]["peers"]["fake"]["ratio"] is None and x[3]["peers"]["fake"]["problem"] == "exit status 3"'
 check_lines task.json '[c["lanes"] for c in x if c["name"].endswith(("lane", "lanes"))] == [1, 4, 8, 16]'
-check_lines task.json 'len(x) == 31 and "baseline" not in x[24] and all(c["baseline"] == 25 for c in x[25:])'
+check_lines task.json 'len(x) == 40 and "baseline" not in x[33] and all(c["baseline"] == 34 for c in x[34:])'
 expect 2 '^pellucid: --peer mute: never gave a time: its last line' bench task --size 16x12 --frames 1 --peer 'mute=echo hello'
 
 # Some cases alone, with what they are compared with.
 expect 0 'T2, grid' bench task --size 16x12 --frames 1 --only 'T2, grid x1 ' --json some.json
 check_lines some.json '[(c["name"], c["volumes"]) for c in x] == [("T2", 1), ("T2, grid", 1)] and x[1]["baseline"] == 1'
 expect 2 "no case of 31 is like 'T9'" bench task --size 16x12 --only T9
+
+# Ways to skip: the same picture from fewer samples, and what that takes; brick sizes and blocks for the papers' tables.
+expect 2 "^pellucid: --skip: 'bhv' is none of .* did you mean 'bvh'" bench skip --skip bhv
+expect 0 '^\| .* derive ms \| .* depth, apart \|' bench skip --skip none --skip bvh --skip blocks --largest 24 --size 16x12 --frames 1 --json skip.json
+check_lines skip.json '[c["name"] for c in x][:4] == ["task T1, none", "task T1, bvh", "task T1, blocks", "task T2, none"]'
+check_lines skip.json 'all(c["samples"] <= x[c["baseline"] - 1]["samples"] for c in x[:27] if "baseline" in c)'
+check_lines skip.json 'all(c["skip_bytes"] > 0 and c["bricks"]["active"] <= c["bricks"]["total"] for c in x if c["skip"] != "none")'
+check_lines skip.json '[c["bricks"]["size"] for c in x[27:37]] == [8, 8, 16, 16, 32, 32, 64, 64, 128, 128] and all(1 <= c["bricks"]["depth"] <= c["bricks"]["depth_apart"] for c in x[27:37])'
+check_lines skip.json '[c["name"] for c in x[37:41]] == ["task T1, blocks " + n for n in ("searched", "searched, culled", "walked", "walked, culled")]'
+expect 0 '' bench scene.json --skip all --frames 1 --size 16x12 --json -
+check_lines out '[c["skip"] for c in x][:6] == ["none", "grid", "octree", "distance", "bvh", "blocks"] and len(x) == 7'
+
+# How time grows, on parts of a device that can be divided, too; what an edit sends and derives.
+expect 0 '^\| .* overlapping ' bench scaling --largest 16 --size 16x12 --frames 1 --json scaling.json
+check_lines scaling.json '[c["volumes"] for c in x[-12:]] == 2 * [1, 2, 4, 8, 16, 32] and [c["width"] for c in x if c["name"].endswith("pixels")] == [4, 8, 16, 32]'
+expect 0 '^\| .* sent KiB ' bench changes --skip distance --largest 32 --size 16x12 --frames 1 --json changes.json
+check_lines changes.json '[c["name"].split(", ")[1] for c in x] == ["nothing", "camera", "colour", "opacity", "what is visible", "pose", "clip"]'
+check_lines changes.json 'x[0]["uploaded_bytes"] == 0 and all(0 < c["uploaded_bytes"] < 32768 for c in x[1:])'
+expect 0 '' render scene.json -o part.png --compute-units 1
 
 # A sweep narrowed to one kernel, and the thesis's tables with its figures and ours.
 expect 0 '^\| *3 \| 4 work-items in 4 rows ' bench workgroup --lanes 1 --work-group 4 --size 16x12 --frames 1 --json groups.json

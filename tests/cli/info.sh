@@ -53,5 +53,23 @@ expect 0 "volume +1 'two'" info scene.json
 expect 0 '' info scene.json --json
 check_json '(x[0]["file"], x[0]["width"], x[0]["height"]) == ("scene.json", 50, 40)'
 check_json '[v["instance"] for v in x[0]["volumes"]] == ["one", "two"]'
+check_json 'x[0]["clips"] == [] and x[0]["volumes"][0]["mask"] is None and x[0]["volumes"][0]["model"] == "absorption"'
 check_json 'x[0]["volumes"][0]["axes"] == "LPS" and max(x[0]["volumes"][1]["dims"]) == 8'
+
+# And how they take part in it.
+python3 -c '
+import json
+scene = json.load(open("scene.json"))
+scene["clip"] = [{"plane": {"point": [0, 0, 2], "normal": [0, 1, 0]}, "keep": "outside"}]
+scene["volumes"][0].update(mask={"volume": "two", "labels": [1, 3], "ranges": [[5, 7]], "threshold": 9, "invert": True},
+                           priority=2, model="mip", clip=[{"box": {"size": [4, 5, 6]}}])
+json.dump(scene, open("parts.json", "w"))'
+expect 0 "^ {4}mask +shown where 'two' is not 1,3,5\.\.7,>=9$" info parts.json
+expect 0 '^ {4}model +mip, density 1, priority 2$' info parts.json
+expect 0 '^ {4}clip +box around 0, 0, 0 mm, size 4, 5, 6 mm; kept inside$' info parts.json
+expect 0 '^  clip +plane through 0, 0, 2 mm, normal 0, 1, 0; kept outside$' info parts.json
+expect 0 '' info parts.json --json
+check_json 'x[0]["volumes"][0]["mask"] == {"volume": 1, "name": "two", "values": "1,3,5..7,>=9", "inverted": True}'
+check_json '(x[0]["volumes"][0]["model"], x[0]["volumes"][0]["priority"]) == ("mip", 2)'
+check_json 'x[0]["clips"][0]["kind"] == "plane" and x[0]["volumes"][0]["clips"][0]["size"] == [4, 5, 6]'
 exit $failed

@@ -55,11 +55,14 @@ png eye.png '__import__("json").loads(texts["camera"])["fov"] == 30'
 for option in '--mix over' '--filter nearest' '--termination 1' '--phase 0.25' '--density 0.5' '--background white' \
     '--background 0.1,0.2,0.3' '--background #102030' '--transfer viridis' '--alpha premultiplied' '--reader buffer' \
     '--shading' '--shading=off' '--shading=model=phong,ambient=0.2,shininess=30' '--lanes 4' '--lanes 1' \
-    '--work-group 1' '--set camera.fov=20' '--quiet' \
+    '--shading --shadows' '--shading --shadows=length=9,strength=0.5 --ambient-occlusion=directions=2,radius=4,step=3' \
+    '--shadows=off --ambient-occlusion' '--work-group 1' '--set camera.fov=20' '--quiet' \
     '--supersample 2 --supersample-pattern n-rooks --supersample-filter gaussian --seed 3 --jitter'; do
     # shellcheck disable=SC2086
     expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" $option -o option.png
 done
+
+expect 2 "--shadows: 'dark' is not on, off or KEY=VALUE,..." render data/box.nii.gz --shadows=dark -o none.png
 
 # Two eyes: sizes that follow from the kind; two files; what it cost.
 for kind in side-by-side top-bottom side-by-side-half colour-red-cyan matrix; do

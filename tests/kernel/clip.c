@@ -1,4 +1,5 @@
-// clip.c - clipped volumes against the reference and the analytic truth, by rays and by packets.
+// clip.c - clipped volumes against the reference and the analytic truth, by rays and by packets,
+// from buffers and from images.
 #include "base/math.h"
 #include "support/judge.h"
 #include "support/near.h"
@@ -103,8 +104,12 @@ static void test_against_reference(void **state) {
     struct pel_scene *scene = scene_of_waves();
     struct pel_renderer *rays = judge_renderer(PEL_READER_BUFFER, 1);
     struct pel_renderer *packets = judge_renderer(PEL_READER_BUFFER, judge_packet_lanes());
+    struct pel_renderer *images = judge_renderer(PEL_READER_IMAGE, 1);
     scene->render.mixing = PEL_MIX_ORDERED;
     pel_image_destroy(judge_render(rays, scene, NULL, "rays, ordered"));
+    scene->render.mixing = PEL_MIX_UNION;
+    if (judge_has_images(images, scene))
+        pel_image_destroy(judge_render(images, scene, NULL, "images, union"));
     scene->render.mixing = PEL_MIX_SUM;
     scene->instances[1].material.shading = PEL_SHADING_BLINN_PHONG;
     struct pel_image *pictures[2];
@@ -118,6 +123,7 @@ static void test_against_reference(void **state) {
         pel_image_destroy(pictures[n]);
     pel_renderer_destroy(rays);
     pel_renderer_destroy(packets);
+    pel_renderer_destroy(images);
     pel_scene_destroy(scene);
 }
 

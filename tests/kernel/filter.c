@@ -2,6 +2,7 @@
 // read them is among the kernels of variants.c.
 #include <math.h>
 
+#include "base/math.h"
 #include "shared/brick.h"
 #include "support/judge.h"
 #include "support/picture.h"
@@ -65,10 +66,34 @@ static void test_slabs(void **state) {
     pel_scene_destroy(scene);
 }
 
+// Absent voxels around a nearest one do not matter, also where others are interpolated and a
+// device's images are read by one filter for all.
+static void test_absent_neighbours(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_IMAGE, 1);
+    struct pel_scene *scene = scene_create(16, 12);
+    for (int k = 0; k < 2; k++) {
+        struct pel_volume *volume =
+            scene_volume_waves((int[]){12, 10, 8}, PEL_VOXEL_F32, (uint64_t)k, 7);
+        for (size_t i = 0; k == 0 && i < pel_volume_voxel_count(volume); i += 7)
+            ((float *)volume->voxels)[i] = NAN;
+        struct pel_instance *instance = scene_add(
+            scene, volume, scene_transfer_gentle((double[]){-1.5, 2.5}, 0.2, (uint64_t)(3 + k)));
+        instance->transform = pel_matrix_from_quaternion((double[]){0.3 - 0.4 * k, 0.2, 0.1, 1},
+                                                         (double[]){3 * k, 0, 0});
+        instance->filter = k == 0 ? PEL_FILTER_NEAREST : PEL_FILTER_LINEAR;
+    }
+    if (judge_has_images(renderer, scene))
+        pel_image_destroy(judge_render(renderer, scene, NULL, "absent neighbours"));
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_skip),
         cmocka_unit_test(test_slabs),
+        cmocka_unit_test(test_absent_neighbours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,6 +102,14 @@ static const struct {
     AT(world, lamp_count),
     AT(world, debug),
     AT(world, medium_count),
+    AT(world, shadow_step_mm),
+    AT(world, shadow_length_mm),
+    AT(world, shadow_strength),
+    AT(world, occlusion_step_mm),
+    AT(world, occlusion_radius_mm),
+    AT(world, occlusion_strength),
+    AT(world, occlusion_count),
+    AT(world, directions),
     AT(world, lamps),
     AT(world, parts),
     AT(world, cuts),
@@ -128,7 +136,7 @@ enum { COUNT = sizeof host / sizeof *host };
 
 static void test_layout(void **state) {
     (void)state;
-    struct pel_device *device = pel_device_open(NULL);
+    struct pel_device *device = pel_device_open(NULL, 0);
     if (!device)
         fail_msg("%s", pel_error_message());
     struct pel_kernel *kernel =

@@ -107,7 +107,9 @@ static void widen_by_shade(struct change *change, const struct spot *spot,
     if (spot->body->instance->material.shading == PEL_SHADING_NONE)
         return;
     change->colour = change->colour * reference_shade_greatest(spot->reference, spot->body) +
-                     reference_shade_change(spot->reference, spot->body, normal, reach);
+                     reference_shade_change(spot->reference, spot->body, normal, reach) +
+                     reference_dimming_change(spot->reference, spot->body, &spot->path->ray,
+                                              spot->t, normal, errors);
 }
 
 static double spacing_along(const struct reference_body *body, int axis) {

@@ -42,14 +42,6 @@ struct gathering {
     int count;
 };
 
-static enum pel_model model_of(const struct reference *reference, int k) {
-    enum pel_model own = reference->bodies[k].instance->model;
-    enum pel_model scene = reference->scene->render.model;
-    return own != PEL_MODEL_DEFAULT     ? own
-           : scene != PEL_MODEL_DEFAULT ? scene
-                                        : PEL_MODEL_ABSORPTION;
-}
-
 static bool is_projection(enum pel_model model) {
     return model == PEL_MODEL_MIP || model == PEL_MODEL_MINIP || model == PEL_MODEL_AVERAGE;
 }
@@ -180,7 +172,7 @@ static void gather_projection(struct progress *progress, enum pel_model model, d
 static void add_projections(struct gathering *gathering) {
     for (int k = 0; k < gathering->reference->body_count; k++) {
         const struct progress *progress = &gathering->bodies[k];
-        if (!is_projection(model_of(gathering->reference, k)) || progress->count == 0)
+        if (!is_projection(reference_model_of(gathering->reference, k)) || progress->count == 0)
             continue;
         double rgba[4];
         reference_table_look_up(rgba, &gathering->reference->bodies[k].table,
@@ -217,7 +209,7 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
     for (int k = 0; k < reference->body_count; k++) {
         const struct reference_body *body = &reference->bodies[k];
         struct progress *progress = &gathering->bodies[k];
-        enum pel_model model = model_of(reference, k);
+        enum pel_model model = reference_model_of(reference, k);
         struct reference_sample sample;
         double p_voxel[3];
         total += model == PEL_MODEL_ABSORPTION;
@@ -256,9 +248,17 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
     reference_compose(add_layer(gathering, i, MEDIA, 0), layer, mixed);
 }
 
+enum pel_model reference_model_of(const struct reference *reference, int k) {
+    enum pel_model own = reference->bodies[k].instance->model;
+    enum pel_model scene = reference->scene->render.model;
+    return own != PEL_MODEL_DEFAULT     ? own
+           : scene != PEL_MODEL_DEFAULT ? scene
+                                        : PEL_MODEL_ABSORPTION;
+}
+
 bool reference_is_plain(const struct reference *reference) {
     for (int k = 0; k < reference->body_count; k++)
-        if (model_of(reference, k) != PEL_MODEL_ABSORPTION || reference->bodies[k].pairs)
+        if (reference_model_of(reference, k) != PEL_MODEL_ABSORPTION || reference->bodies[k].pairs)
             return false;
     return true;
 }
@@ -266,7 +266,7 @@ bool reference_is_plain(const struct reference *reference) {
 void reference_gather(double rgba[4], const struct reference *reference,
                       const struct reference_path *path, const struct reference_errors *errors,
                       double sign, uint64_t *taken) {
-    if (reference->body_count > 0 && model_of(reference, 0) == PEL_MODEL_EMISSION) {
+    if (reference->body_count > 0 && reference_model_of(reference, 0) == PEL_MODEL_EMISSION) {
         reference_emit(rgba, reference, path);
         return;
     }
@@ -275,7 +275,7 @@ void reference_gather(double rgba[4], const struct reference *reference,
     double termination = reference->scene->render.termination, so_far[4] = {0};
     bool ends = termination < 1 && reference->scene->render.order == PEL_ORDER_FRONT_TO_BACK;
     for (int k = 0; k < reference->body_count; k++)
-        ends = ends && !is_projection(model_of(reference, k));
+        ends = ends && !is_projection(reference_model_of(reference, k));
     double t;
     for (double i = 0; t = reference_sample_t(reference, path, i), t < path->t_far; i++) {
         int first = gathering.count;

@@ -5,6 +5,9 @@
 #include "reference/path.h"
 #include "reference/reference.h"
 
+// The model of body k, its own or the scene's.
+enum pel_model reference_model_of(const struct reference *reference, int k);
+
 // True when every sample of a scene is nothing but a mixture of media.
 bool reference_is_plain(const struct reference *reference);
 

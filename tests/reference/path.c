@@ -30,17 +30,6 @@ static void init_body(struct reference_body *body, const struct pel_scene *scene
     }
 }
 
-static double least_spacing(const struct reference_body *body) {
-    double least = INFINITY;
-    for (int axis = 0; axis < 3; axis++) {
-        double column[3];
-        for (int c = 0; c < 3; c++)
-            column[c] = body->world_from_voxel.m[c][axis];
-        least = fmin(least, pel_length(column));
-    }
-    return least;
-}
-
 // What the body asks for: its own step before the scene's, millimetres before voxels.
 static double step_of(const struct pel_scene *scene, const struct reference_body *body) {
     double step_mm = body->instance->step_mm, step = body->instance->step;
@@ -48,7 +37,7 @@ static double step_of(const struct pel_scene *scene, const struct reference_body
         step_mm = scene->render.step_mm;
         step = scene->render.step;
     }
-    return step_mm > 0 ? step_mm : step * least_spacing(body);
+    return step_mm > 0 ? step_mm : step * reference_spacing(body);
 }
 
 static void include_corners(struct reference *reference, const struct reference_body *body) {
@@ -95,6 +84,17 @@ void reference_destroy(struct reference *reference) {
         free(reference->bodies[k].pairs);
     }
     free(reference);
+}
+
+double reference_spacing(const struct reference_body *body) {
+    double least = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double column[3];
+        for (int c = 0; c < 3; c++)
+            column[c] = body->world_from_voxel.m[c][axis];
+        least = fmin(least, pel_length(column));
+    }
+    return least;
 }
 
 bool reference_begin(struct reference_path *path, const struct reference *reference, double x_px,

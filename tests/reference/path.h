@@ -35,6 +35,9 @@ struct reference_path {
     double t_near, t_far; // no sample lies at t_far or beyond
 };
 
+// The distance of the body's nearest voxels.
+double reference_spacing(const struct reference_body *body);
+
 // False when the ray meets nothing.
 bool reference_begin(struct reference_path *path, const struct reference *reference, double x_px,
                      double y_px);

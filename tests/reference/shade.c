@@ -5,6 +5,7 @@
 
 #include "base/math.h"
 #include "reference/gradient.h"
+#include "reference/secondary.h"
 
 // The length of a gradient, in ranges of the table per voxel, where normals fade out.
 static const double softness = 0x1p-16;
@@ -30,23 +31,13 @@ static int lamp_count(const struct pel_scene *scene) {
     return scene->light_count > 0 ? scene->light_count : 1;
 }
 
-static double voxel_spacing(const struct reference_body *body) {
-    double least = INFINITY;
-    for (int axis = 0; axis < 3; axis++) {
-        const struct pel_matrix *matrix = &body->world_from_voxel;
-        double column[3] = {matrix->m[0][axis], matrix->m[1][axis], matrix->m[2][axis]};
-        least = fmin(least, pel_length(column));
-    }
-    return least;
-}
-
 // The gradient in ranges of the table per voxel, in world directions.
 static void find_gradient(double gradient[3], const struct reference_body *body,
                           const double p_voxel[3], double value, double *spread) {
     double along[3];
     reference_gradient(along, body, p_voxel, value, spread);
     double range = body->table.high - body->table.low;
-    double scale = range > 0 ? voxel_spacing(body) / range : 0;
+    double scale = range > 0 ? reference_spacing(body) / range : 0;
     // A gradient is a row: it goes the other way, by the transpose.
     for (int c = 0; c < 3; c++) {
         gradient[c] = 0;
@@ -96,6 +87,19 @@ static double highlight(const struct pel_material *material, const double n[3], 
     return pow(material->one_sided ? fmax(cosine, 0) : fabs(cosine), material->shininess);
 }
 
+// What shadows and ambient occlusion leave of the light at t along the ray.
+static struct reference_dimming dim(const struct reference *reference,
+                                    const struct reference_body *body,
+                                    const struct reference_ray *ray, double t,
+                                    const double normal[3], const struct reference_errors *errors,
+                                    double sign) {
+    double towards[PEL_LIGHT_MAX][3];
+    for (int n = 0; n < lamp_count(reference->scene); n++)
+        find_light(towards[n], reference->scene, n, ray, t);
+    return reference_dimming(reference, body, ray, t, normal, (const double(*)[3])towards, errors,
+                             sign);
+}
+
 struct reference_shade reference_shade(const struct reference *reference,
                                        const struct reference_body *body,
                                        const struct reference_ray *ray, double t,
@@ -108,6 +112,7 @@ struct reference_shade reference_shade(const struct reference *reference,
     const double v[3] = {-ray->direction[0], -ray->direction[1], -ray->direction[2]};
     for (int c = 0; c < 3; c++)
         shade.matt[c] = material.ambient;
+    struct reference_dimming dimming = dim(reference, body, ray, t, normal, NULL, 0);
     for (int n = 0; n < lamp_count(scene); n++) {
         double l[3];
         find_light(l, scene, n, ray, t);
@@ -115,11 +120,13 @@ struct reference_shade reference_shade(const struct reference *reference,
         if (material.one_sided && facing <= 0)
             continue;
         for (int c = 0; c < 3; c++) {
-            double colour = lamp_colour(scene, n, c);
+            double colour = lamp_colour(scene, n, c) * dimming.lights[n];
             shade.matt[c] += colour * material.diffuse * fabs(facing);
             shade.gloss[c] += colour * material.specular * highlight(&material, normal, l, v);
         }
     }
+    for (int c = 0; c < 3; c++)
+        shade.matt[c] *= dimming.around;
     return shade;
 }
 
@@ -155,6 +162,24 @@ double reference_shade_change(const struct reference *reference, const struct re
     double sharpness = material.shininess * (material.shading == PEL_SHADING_PHONG ? 4 : 1);
     return greatest_light(reference->scene) *
            (material.diffuse * fmin(1, turn) + material.specular * fmin(1, sharpness * turn));
+}
+
+double reference_dimming_change(const struct reference *reference,
+                                const struct reference_body *body, const struct reference_ray *ray,
+                                double t, const double normal[3],
+                                const struct reference_errors *errors) {
+    const struct pel_render_settings *render = &reference->scene->render;
+    if (!render->shadows.on && !render->ambient_occlusion.on)
+        return 0;
+    struct reference_dimming right = dim(reference, body, ray, t, normal, NULL, 0);
+    double change = 0;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        struct reference_dimming wrong = dim(reference, body, ray, t, normal, errors, sign);
+        change = fmax(change, fabs(wrong.around - right.around));
+        for (int n = 0; n < lamp_count(reference->scene); n++)
+            change = fmax(change, fabs(wrong.lights[n] - right.lights[n]));
+    }
+    return 1.5 * change * reference_shade_greatest(reference, body);
 }
 
 double reference_shade_greatest(const struct reference *reference,

@@ -3,6 +3,7 @@
 #define PEL_TEST_REFERENCE_SHADE_H
 
 #include "reference/path.h"
+#include "reference/reference.h"
 
 // c' = c * matt + gloss, per channel.
 struct reference_shade {
@@ -28,6 +29,11 @@ void reference_shade_apply(struct reference_medium *medium, const struct referen
 // `error`; and the brightest that a white sample can be.
 double reference_shade_change(const struct reference *reference, const struct reference_body *body,
                               const double normal[3], double error);
+// The same by shadows and ambient occlusion when the values around are off.
+double reference_dimming_change(const struct reference *reference,
+                                const struct reference_body *body, const struct reference_ray *ray,
+                                double t, const double normal[3],
+                                const struct reference_errors *errors);
 double reference_shade_greatest(const struct reference *reference,
                                 const struct reference_body *body);
 

@@ -11,7 +11,8 @@ for lanes in 1 4 8 16; do
     for reader in 0 1; do
         for others in '' '-DSHADING=1 -DSKIP=5' '-DVOXELS=15 -DFILTERS=3 -DMIXING=0 -DSKIP=4' \
             '-DVOXELS=15 -DFILTERS=3 -DMIXING=1 -DCAPACITY=8 -DSHADING=1' '-DMIXING=2 -DCAPACITY=8 -DSHADING=1' \
-            '-DMASKED=1 -DCAPACITY=8 -DCLIP=1 -DMODELS=10 -DSKIP=1' '-DSUPERSAMPLING=1 -DSKIP=2' '-DSUPERSAMPLING=1 -DJITTER=1 -DSKIP=3'; do
+            '-DMASKED=1 -DCAPACITY=8 -DCLIP=1 -DMODELS=10 -DSKIP=1' '-DSHADING=1 -DSECONDARY=3 -DMASKED=1 -DCAPACITY=8 -DCLIP=1 -DMODELS=10' \
+            '-DSHADING=1 -DSECONDARY=1 -DMIXING=2 -DSUPERSAMPLING=1 -DJITTER=1 -DCAPACITY=8' '-DSUPERSAMPLING=1 -DSKIP=2' '-DSUPERSAMPLING=1 -DJITTER=1 -DSKIP=3'; do
             for file in "${files[@]}"; do
                 # shellcheck disable=SC2086
                 if ! clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra -Werror \

@@ -57,6 +57,8 @@ pairs = {
     "scene_read_settings.c:render_keys": (defs["render"], "render"),
     "scene_read_settings.c:brick_keys": (defs["bricks"], "bricks"),
     "scene_read_settings.c:supersampling_keys": (defs["supersampling"], "supersampling"),
+    "scene_read_secondary.c:shadow_keys": (defs["shadows"], "shadows"),
+    "scene_read_secondary.c:occlusion_keys": (defs["ambient_occlusion"], "ambient_occlusion"),
     "scene_read_settings.c:output_keys": (defs["output"], "output"),
     "scene_read_wall.c:wall_keys": (defs["wall"], "wall"),
     "scene_read_wall.c:region_keys": (defs["region"], "region"),
@@ -114,7 +116,7 @@ def place(section, key, value):
               "transform": {}, "rotate": {"axis": "x", "degrees": 1}, "transfer": {"preset": "hot"},
                "render": {}, "stereo": {}, "wall": {}, "region": {"place": [0, 0, 1, 1]}, "output": {}, "light": {}, "shading": {}, "silhouette": {}, "supersampling": {}, "iso": {"value": 1},
                "clip": {}, "plane": {"normal": [0, 0, 1]}, "box": {"size": [1, 1, 1]},
-               "bricks": {}, "mask": {"volume": 1, "labels": 1}, "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
+               "bricks": {}, "shadows": {}, "ambient_occlusion": {}, "mask": {"volume": 1, "labels": 1}, "animation": {}, "track": {"key": "camera.fov", "values": [1, 2]}, "orbit": {}}[section]
     if section == "transform":
         holder.update({"translation": {"quaternion": [0, 0, 0, 1]}, "fixed": {"file": "a"},
                        "comment": {"file": "a"}}.get(key, {}))
@@ -132,7 +134,7 @@ def place(section, key, value):
         return {"volumes": [volume], **holder}
     if section in ("generate", "hypertexture"):
         volume = {section: holder}
-    elif section in ("supersampling", "bricks"):
+    elif section in ("supersampling", "bricks", "shadows", "ambient_occlusion"):
         return {"volumes": [volume], "render": {section: holder}}
     elif section == "track":
         return {"volumes": [volume], "animation": {"tracks": [holder]}}

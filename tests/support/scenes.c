@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/math.h"
+#include "base/quaternion.h"
 #include "support/test.h"
 
 static void *allocate(size_t count, size_t bytes) {
@@ -59,6 +60,24 @@ void scene_view_parallel(struct pel_scene *scene, double height_mm) {
     scene->camera.height_mm = height_mm;
 }
 
+// Moves clips that are in the world; the others go with their volumes.
+static void move_clips(struct pel_clip *clips, int count, bool all,
+                       const struct pel_matrix *transform) {
+    for (int n = 0; n < count; n++) {
+        struct pel_clip *clip = &clips[n];
+        if (!all && !clip->in_world)
+            continue;
+        bool turned =
+            clip->xyzw[0] != 0 || clip->xyzw[1] != 0 || clip->xyzw[2] != 0 || clip->xyzw[3] != 0;
+        struct pel_matrix frame = pel_matrix_from_quaternion(
+            turned ? clip->xyzw : (const double[]){0, 0, 0, 1}, clip->point);
+        frame = pel_matrix_multiply(transform, &frame);
+        pel_quaternion_from_matrix(clip->xyzw, &frame);
+        pel_matrix_point(clip->point, transform, clip->point);
+        pel_matrix_direction(clip->normal, transform, clip->normal);
+    }
+}
+
 void scene_move(struct pel_scene *scene, const struct pel_matrix *transform) {
     struct pel_camera *camera = &scene->camera;
     pel_matrix_point(camera->eye, transform, camera->eye);
@@ -72,14 +91,23 @@ void scene_move(struct pel_scene *scene, const struct pel_matrix *transform) {
     for (int k = 0; k < scene->instance_count; k++) {
         struct pel_matrix *own = &scene->instances[k].transform;
         *own = pel_matrix_multiply(transform, own);
+        move_clips(scene->instances[k].clips, scene->instances[k].clip_count, false, transform);
     }
+    move_clips(scene->clips, scene->clip_count, true, transform);
 }
 
 void scene_permute(struct pel_scene *scene, const int order[]) {
     struct pel_instance old[PEL_VOLUME_MAX];
+    int places[PEL_VOLUME_MAX];
     memcpy(old, scene->instances, sizeof old);
     for (int k = 0; k < scene->instance_count; k++)
+        places[order[k]] = k;
+    for (int k = 0; k < scene->instance_count; k++) {
         scene->instances[k] = old[order[k]];
+        struct pel_mask *mask = &scene->instances[k].mask;
+        if (mask->range_count > 0)
+            mask->instance = places[mask->instance];
+    }
 }
 
 bool scene_is_small(void) {

@@ -65,8 +65,8 @@ struct pel_transfer *scene_transfer_gentle(const double range[2], double opacity
 
 // ---- Scenes ------------------------------------------------------------------------------------
 
-// One to five random volumes (types, sizes, poses, filters, extents, mixing, camera) with gentle
-// transfer functions. The same seed gives the same scene. `small` keeps it cheap.
+// One to five random volumes (types, sizes, poses, filters, extents, mixing, clips, masks, camera)
+// with gentle transfer functions. The same seed gives the same scene. `small` keeps it cheap.
 struct pel_scene *scene_random(uint64_t seed, bool small);
 
 // Moves everything, camera and lights included, by a rigid transform.

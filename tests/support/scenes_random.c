@@ -99,6 +99,49 @@ static void random_camera(struct pel_camera *camera, uint64_t *seed) {
         camera->shift[c] = below(seed, 3) ? 0 : between(seed, -0.3, 0.3);
 }
 
+static struct pel_clip random_clip(uint64_t *seed) {
+    struct pel_clip clip = {.kind = below(seed, 2) ? PEL_CLIP_BOX : PEL_CLIP_PLANE,
+                            .outside = below(seed, 2),
+                            .in_world = below(seed, 2)};
+    for (int c = 0; c < 3; c++) {
+        clip.point[c] = between(seed, -5, 5);
+        clip.normal[c] = between(seed, -1, 1) + 1e-3;
+        clip.size[c] = between(seed, 4, 20);
+    }
+    random_quaternion(clip.xyzw, seed);
+    return clip;
+}
+
+// Another volume's values between two of those that there may be.
+static struct pel_mask random_mask(uint64_t *seed, const struct pel_scene *scene, int other) {
+    const struct pel_volume *volume = scene->volumes[scene->instances[other].volume];
+    struct pel_mask mask = {
+        .instance = other, .range_count = 1 + below(seed, 2), .inverted = below(seed, 2)};
+    double raw[2];
+    scene_raw_range(volume->type, raw);
+    for (int n = 0; n < mask.range_count; n++) {
+        double ends[2];
+        for (int i = 0; i < 2; i++)
+            ends[i] = volume->slope * between(seed, raw[0], raw[1]) + volume->intercept;
+        mask.ranges[n] = (struct pel_value_range){fmin(ends[0], ends[1]), fmax(ends[0], ends[1])};
+    }
+    return mask;
+}
+
+// Clips of volumes and of the scene, and masks that are never masked by what they mask.
+static void add_cuts(struct pel_scene *scene, uint64_t *seed) {
+    for (int k = 0; k < scene->instance_count; k++) {
+        struct pel_instance *instance = &scene->instances[k];
+        while (instance->clip_count < 2 && below(seed, 4) == 0)
+            instance->clips[instance->clip_count++] = random_clip(seed);
+        int behind = scene->instance_count - k - 1;
+        if (behind > 0 && below(seed, 3) == 0)
+            instance->mask = random_mask(seed, scene, k + 1 + below(seed, behind));
+    }
+    if (below(seed, 6) == 0)
+        scene->clips[scene->clip_count++] = random_clip(seed);
+}
+
 struct pel_scene *scene_random(uint64_t seed, bool small) {
     // Seeds that follow each other should not make scenes that do.
     seed *= 0x9e3779b97f4a7c15u;
@@ -130,5 +173,6 @@ struct pel_scene *scene_random(uint64_t seed, bool small) {
         scene->instances[k].priority = below(&seed, 3);
         scene->instances[k].step = below(&seed, 4) ? 0 : between(&seed, 0.7, 1.5);
     }
+    add_cuts(scene, &seed);
     return scene;
 }

@@ -166,6 +166,14 @@ static void test_keyframes(void **state) {
             assert_float_equal(scene->camera.eye[1], 100 + 100 * i, 1e-9);
         }
         assert_float_equal(scene->instances[0].density, 0.25, 0);
+        // They can be read back, as they were put there and as they were saved.
+        struct pel_keyframe read[2];
+        assert_int_equal(pel_scene_keyframes(scene, read, 2), 3);
+        for (int i = 0; i < 2; i++) {
+            assert_float_equal(read[i].time_s, keyframes[i].time_s, 1e-12);
+            assert_float_equal(read[i].camera.eye[1], keyframes[i].camera.eye[1], 1e-9);
+            assert_float_equal(read[i].camera.fov_deg, keyframes[i].camera.fov_deg, 1e-9);
+        }
         if (pass > 0)
             break;
         // Nothing is loaded anew; and saved, it is the same.
@@ -176,6 +184,15 @@ static void test_keyframes(void **state) {
         scene = pel_scene_load(path, NULL, 0);
         assert_non_null(scene);
     }
+    // A change is lost with the next frame, unless the animation is made to act upon it.
+    scene->instances[0].density = 0.5;
+    assert_true(pel_scene_set_frame(scene, 3));
+    assert_float_equal(scene->instances[0].density, 0.25, 0);
+    scene->instances[0].density = 0.5;
+    assert_true(pel_scene_rebase(scene));
+    assert_true(pel_scene_set_frame(scene, 10));
+    assert_float_equal(scene->instances[0].density, 0.5, 0);
+    assert_float_equal(scene->camera.eye[1], 200, 1e-9);
     keyframes[2].time_s = 1;
     assert_false(pel_scene_set_keyframes(scene, keyframes, 3, 10));
     assert_int_equal(pel_error_code(), PEL_ERROR_ARGUMENT);
@@ -183,6 +200,7 @@ static void test_keyframes(void **state) {
     assert_int_equal(scene->timeline.frame_count, 21);
     assert_true(pel_scene_set_keyframes(scene, NULL, 0, 10));
     assert_int_equal(scene->timeline.frame_count, 0);
+    assert_int_equal(pel_scene_keyframes(scene, NULL, 0), 0);
     assert_false(pel_scene_set_frame(scene, 0));
     pel_scene_destroy(scene);
 }

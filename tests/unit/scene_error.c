@@ -48,6 +48,9 @@ static const struct {
     {"{'render': {'mixing': 'most'}, " TEST_VOLUMES "}",
      "bad.json:1:13: render.mixing: must be sum, over, ordered, max, priority, union, "
      "intersection or difference, not \"most\""},
+    {"{'render': {'filter': 'cubic'}, " TEST_VOLUMES "}",
+     "bad.json:1:13: render.filter: must be linear, nearest, cubic-b-spline or catmull-rom, not "
+     "\"cubic\""},
     {"{'volumes': [{" TEST_VOLUME ", 'mask': {'labels': 1}}]}",
      "bad.json:1:60: volumes.0.mask: needs 'volume', the name or the index of another one"},
     {"{'volumes': [{" TEST_VOLUME ", 'mask': {'volume': 'b', 'labels': 1}}]}",

@@ -87,6 +87,23 @@ static void test_stereo(void **state) {
     pel_scene_destroy(scene);
 }
 
+// Volumes take the scene's filter and gradient unless they have their own.
+static void test_usual(void **state) {
+    (void)state;
+    struct pel_scene *scene =
+        load("{'render': {'filter': 'catmull-rom', 'gradient': 'sobel'}, 'volumes': "
+             "[{" TEST_VOLUME "}, {" TEST_VOLUME ", 'filter': 'linear', 'gradient': 'analytic'}, "
+             "{'generate': {'kind': 'head-labels', 'size': 4}}]}");
+    assert_int_equal(scene->instances[0].filter, PEL_FILTER_CATMULL_ROM);
+    assert_int_equal(scene->instances[0].gradient, PEL_GRADIENT_SOBEL);
+    assert_int_equal(scene->instances[1].filter, PEL_FILTER_LINEAR);
+    assert_int_equal(scene->instances[1].gradient, PEL_GRADIENT_ANALYTIC);
+    // Between labels there is nothing.
+    assert_int_equal(scene->instances[2].filter, PEL_FILTER_NEAREST);
+    assert_int_equal(scene->instances[2].gradient, PEL_GRADIENT_SOBEL);
+    pel_scene_destroy(scene);
+}
+
 static void test_supersampling(void **state) {
     (void)state;
     static const char *const names[] = {"regular", "jittered", "n-rooks", "multi-jittered",
@@ -420,14 +437,15 @@ static void test_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults),      cmocka_unit_test(test_settings),
-        cmocka_unit_test(test_supersampling), cmocka_unit_test(test_stereo),
-        cmocka_unit_test(test_backgrounds),   cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_transforms),    cmocka_unit_test(test_volume_keys),
-        cmocka_unit_test(test_bounds),        cmocka_unit_test(test_sharing),
-        cmocka_unit_test(test_overrides),     cmocka_unit_test(test_generated),
-        cmocka_unit_test(test_other_files),   cmocka_unit_test(test_fsl),
-        cmocka_unit_test(test_files),         cmocka_unit_test(test_visible_fit),
+        cmocka_unit_test(test_defaults),    cmocka_unit_test(test_settings),
+        cmocka_unit_test(test_usual),       cmocka_unit_test(test_supersampling),
+        cmocka_unit_test(test_stereo),      cmocka_unit_test(test_backgrounds),
+        cmocka_unit_test(test_camera),      cmocka_unit_test(test_transforms),
+        cmocka_unit_test(test_volume_keys), cmocka_unit_test(test_bounds),
+        cmocka_unit_test(test_sharing),     cmocka_unit_test(test_overrides),
+        cmocka_unit_test(test_generated),   cmocka_unit_test(test_other_files),
+        cmocka_unit_test(test_fsl),         cmocka_unit_test(test_files),
+        cmocka_unit_test(test_visible_fit),
     };
     return cmocka_run_group_tests(tests, test_write_volumes, NULL);
 }

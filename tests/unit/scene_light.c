@@ -91,7 +91,38 @@ static const struct {
      "volumes.0.shading.shininess: must be at least 1 and at most 1000, not 0"},
     {"'volumes': [{" TEST_VOLUME ", 'shading': {'model': 'gouraud'}}]",
      "volumes.0.shading.model: must be blinn-phong or phong, not \"gouraud\""},
+    {"'render': {'shadows': 1}", "render.shadows: must be true, false or an object"},
+    {"'render': {'shadows': {'length': 0}}",
+     "render.shadows.length: must be above 0 and at most 1e+09, not 0"},
+    {"'render': {'shadows': {'step': 0.1}}",
+     "render.shadows.step: must be at least 0.25 and at most 64, not 0.1"},
+    {"'render': {'ambient_occlusion': {'directions': 65}}",
+     "render.ambient_occlusion.directions: must be at least 1 and at most 64, not 65"},
+    {"'render': {'ambient_occlusion': {'strength': 0}}",
+     "render.ambient_occlusion.strength: must be above 0 and at most 1, not 0"},
+    {"'render': {'ambient_occlusion': {'radios': 3}}",
+     "render.ambient_occlusion.radios: unknown key; did you mean 'radius'"},
 };
+
+// True is all defaults, which in memory are zeros; an object says the rest, and false nothing.
+static void test_secondary(void **state) {
+    (void)state;
+    struct pel_scene *scene = load(
+        "{'render': {'shadows': true, 'ambient_occlusion': false}, " TEST_VOLUMES "}", NULL, 0);
+    assert_true(scene->render.shadows.on);
+    assert_true(scene->render.shadows.step == 0 && scene->render.shadows.length_mm == 0);
+    assert_false(scene->render.ambient_occlusion.on);
+    pel_scene_destroy(scene);
+    const char *overrides[] = {"render.ambient_occlusion.radius=5"};
+    scene = load("{'render': {'ambient_occlusion': {'directions': 7, 'step': 3, 'strength': "
+                 "0.5}}, " TEST_VOLUMES "}",
+                 overrides, 1);
+    const struct pel_ambient_occlusion *occlusion = &scene->render.ambient_occlusion;
+    assert_true(occlusion->on && occlusion->directions == 7 && occlusion->radius_mm == 5);
+    assert_true(occlusion->step == 3 && occlusion->strength == 0.5);
+    assert_false(scene->render.shadows.on);
+    pel_scene_destroy(scene);
+}
 
 static void test_refusals(void **state) {
     (void)state;
@@ -108,9 +139,8 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_material),
-        cmocka_unit_test(test_lights),
+        cmocka_unit_test(test_defaults), cmocka_unit_test(test_material),
+        cmocka_unit_test(test_lights),   cmocka_unit_test(test_secondary),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, test_write_volumes, NULL);

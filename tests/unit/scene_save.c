@@ -65,9 +65,11 @@ static const char *const rich[] = {
     "   'termination': 0.8, 'origin': 'bounds', 'skip': 'blocks', 'bricks': {'size': 16, "
     "'cluster': "
     "false, 'walk': false, 'cull': false, 'pool': 'on'}, 'jitter': true, 'debug': 'spans', "
+    "'filter': 'catmull-rom', 'gradient': 'analytic', "
     "'model': 'mip', 'order': 'back-to-front', 'emission_scale': 0.3, 'preintegration': true,"
     "   'supersampling': {'n': 2, 'pattern': 'n-rooks', 'filter': 'gaussian', 'seed': 3,"
-    "   'adaptive': 0.1}},"
+    "   'adaptive': 0.1}, 'shadows': {'length': 50, 'step': 3, 'strength': 0.7},"
+    "   'ambient_occlusion': {'directions': 9, 'radius': 8, 'step': 1.5, 'strength': 0.6}},"
     " 'stereo': {'kind': 'matrix', 'separation': 5, 'convergence': 77.5, 'swap': true,"
     "   'toe_in': true, 'matrix': [[1, 0, 0, 0, 0, 0.1], [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1]]},"
     " 'animation': {'fps': 10, 'frames': 20, 'frame': 5, 'tracks': ["
@@ -83,7 +85,8 @@ static const char *const rich[] = {
     "true}, {'hypertexture': {'recipe': {'value': ['*', 'time', 'object']}, 'size': 8, 'type':"
     "   'float32', 'seed': 3, 'time': 0.5, 'live': true, 'object': 'a.raw'}},"
     "   {'hypertexture': {'recipe': 'cloud', 'size': 4, 'wrap': true}}],"
-    " 'background': 'none', 'render': {'step_mm': 0.37},"
+    " 'background': 'none', 'render': {'step_mm': 0.37, 'shadows': true, 'ambient_occlusion': "
+    "true},"
     " 'stereo': {'kind': 'red-blue', 'separation': 0}, 'animation': {'duration': 2}, 'wall': "
     "{'columns': 3, 'rows': 2, 'bezel': [0.04, 0.05]}, 'output': "
     "{'file': '-'}}",
@@ -172,12 +175,23 @@ static void test_round_trip(void **state) {
 // ---- Every key ---------------------------------------------------------------------------------
 
 // Keys that say what other keys say: what they mean is written by those.
-static const char *const other_words[] = {
-    "comment",         "$schema",         "camera.view",
-    "camera.fit",      "volume.palette",  "volume.opacity_unit",
-    "render.quality",  "transfer.preset", "transfer.range",
-    "transfer.colors", "transfer.scale",  "wall.columns",
-    "wall.rows",       "wall.bezel",      NULL};
+static const char *const other_words[] = {"comment",
+                                          "$schema",
+                                          "camera.view",
+                                          "camera.fit",
+                                          "volume.palette",
+                                          "volume.opacity_unit",
+                                          "render.quality",
+                                          "render.filter",
+                                          "render.gradient",
+                                          "transfer.preset",
+                                          "transfer.range",
+                                          "transfer.colors",
+                                          "transfer.scale",
+                                          "wall.columns",
+                                          "wall.rows",
+                                          "wall.bezel",
+                                          NULL};
 
 // Objects whose keys are ways to say one thing.
 static const char *const other_ways[] = {"transform", NULL};

@@ -49,6 +49,15 @@ xdotool key ctrl+y key ctrl+y sleep 0.2
 check "\"transform\" in volume and points == $before + 1"
 shut
 
+# A mask: the check below the list of its values shows what they do not select.
+cp "$SOURCE/scenes/mask.json" scene.json
+open scene.json --size 800x600 || exit 1
+sleep 2
+check '"invert" not in volume["mask"] and volume["mask"]["ranges"] == [[7, 8]]'
+xdotool mousemove --window "$window" 118 311 sleep 0.2 click 1 sleep 0.5
+check 'volume["mask"]["invert"] is True'
+shut
+
 # What cannot be opened is a message, and the picture stays.
 echo '{"steps": [{"wait": "rest"}, {"drop": "missing.nrrd"}, {"drop": "ct.nrrd"}, {"wait": "rest"}, {"key": "ctrl+s"}]}' \
     >drop.json
