@@ -36,6 +36,7 @@ enum {
     KEY_DEBUG,
     KEY_DENSITY,
     KEY_SHADING,
+    KEY_LOD,
     KEY_SHADOWS,
     KEY_AMBIENT_OCCLUSION,
     KEY_BACKGROUND,
@@ -148,6 +149,8 @@ static const struct argp_option argp_options[] = {
      0},
     {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh|blocks", 0,
      "How empty space is skipped; the picture is the same with each", 0},
+    {"lod", KEY_LOD, "off|auto|N", 0,
+     "Show volumes coarser: far ones as coarse as a pixel, or all at level N", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,
      "Where they go through the pixel", 0},
@@ -157,7 +160,7 @@ static const struct argp_option argp_options[] = {
      "N x N rays only where neighbouring pixels differ by more than X, 0 to 1", 0},
     {"seed", KEY_SEED, "N", 0, "Seed of all random patterns", 0},
     {"jitter", KEY_JITTER, NULL, 0, "A random phase for every ray", 0},
-    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time", 0,
+    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time|clusters|nodes", 0,
      "Show a number of each pixel's ray in place of its light, as a heat map", 0},
     {0, 0, NULL, 0, "The device:", 5},
     {"device", KEY_DEVICE, "D", 0,
@@ -389,6 +392,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         break;
     case KEY_SHADING:
         good = add_switch(options, "--shading", "volumes.*.shading", argument);
+        break;
+    case KEY_LOD:
+        overrides_add(&options->overrides, "render.lod", argument);
         break;
     case KEY_SHADOWS:
         good = add_switch(options, "--shadows", "render.shadows", argument);
