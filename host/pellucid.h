@@ -562,7 +562,7 @@ struct pel_light {
 
 // How empty space is skipped. The picture is the same with each.
 enum pel_skip {
-    PEL_SKIP_AUTO,     // what is fastest as a rule: distance
+    PEL_SKIP_AUTO,     // what is fastest as a rule (docs/skipping.md): mostly distance
     PEL_SKIP_NONE,     // every sample is taken
     PEL_SKIP_GRID,     // empty cells of 4^3 voxels are left one by one
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
@@ -578,6 +578,8 @@ enum pel_pool_use {
     PEL_POOL_OFF,
     PEL_POOL_ON,
 };
+
+enum { PEL_SKIP_REASON_BYTES = 64 };
 
 // The cubes of voxels in which PEL_SKIP_BVH (Ganter & Manzke 2019) and PEL_SKIP_BLOCKS (Derin et
 // al. 2021; its sub-blocks) look for what is visible.
@@ -627,6 +629,8 @@ enum pel_debug {
     PEL_DEBUG_WORK_GROUP, // which work-group made the pixel, a colour each
     PEL_DEBUG_WORK_ITEM,  // which work-item of its group
     PEL_DEBUG_TIME,       // milliseconds that the pixel's tile took, each launched on its own
+    PEL_DEBUG_CLUSTERS,   // of skip bvh: clusters that the ray crosses; of blocks: blocks
+    PEL_DEBUG_NODES,      // and nodes of the hierarchy over them
 };
 
 #define PEL_SECONDARY_STEP_MIN 0.25
@@ -891,6 +895,11 @@ struct pel_brick_report {
 PEL_API bool pel_scene_measure_bricks(const struct pel_scene *scene, int instance,
                                       struct pel_brick_report reports[PEL_BRICK_SIZES]);
 
+// Which way to skip PEL_SKIP_AUTO takes for a scene on a device that has room for all its volumes,
+// and why in a few words. False: ARGUMENT, MEMORY.
+PEL_API bool pel_scene_choose_skip(const struct pel_scene *scene, enum pel_skip *skip,
+                                   char reason[PEL_SKIP_REASON_BYTES]);
+
 // ---- Devices -----------------------------------------------------------------------------------
 
 enum pel_reader { PEL_READER_AUTO, PEL_READER_BUFFER, PEL_READER_IMAGE };
@@ -970,7 +979,8 @@ struct pel_render_statistics {
     uint64_t uploaded_bytes;     // sent to the device for this frame
     struct pel_kernel_info kernel;
     enum pel_skip skip;
-    uint64_t skip_bytes; // of device_bytes, those for skipping
+    char skip_reason[PEL_SKIP_REASON_BYTES]; // of auto: why this one; "": it was asked for
+    uint64_t skip_bytes;                     // of device_bytes, those for skipping
     struct pel_brick_statistics bricks;
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
     struct pel_debug_range debug; // of the scene's debug view, zeros without one

@@ -122,6 +122,8 @@ static int print_json(const struct run *run) {
                             json_pack("{s:f, s:f, s:f}", "min", statistics->debug.min, "max",
                                       statistics->debug.max, "mean", statistics->debug.mean));
     json_object_set_new(object, "skip", json_string(report_skip(statistics->skip)));
+    if (statistics->skip_reason[0])
+        json_object_set_new(object, "skip_reason", json_string(statistics->skip_reason));
     json_object_set_new(object, "skip_bytes", json_integer((json_int_t)statistics->skip_bytes));
     if (statistics->lod.bytes > 0)
         json_object_set_new(object, "lod", describe_lod(run->scene, &statistics->lod));

@@ -160,7 +160,7 @@ static const struct argp_option argp_options[] = {
      "N x N rays only where neighbouring pixels differ by more than X, 0 to 1", 0},
     {"seed", KEY_SEED, "N", 0, "Seed of all random patterns", 0},
     {"jitter", KEY_JITTER, NULL, 0, "A random phase for every ray", 0},
-    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time", 0,
+    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time|clusters|nodes", 0,
      "Show a number of each pixel's ray in place of its light, as a heat map", 0},
     {0, 0, NULL, 0, "The device:", 5},
     {"device", KEY_DEVICE, "D", 0,

@@ -24,7 +24,7 @@
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
-#include "world/model.h"
+#include "world/skip.h"
 
 static const double batch_default_ms = 150; // of a batch of tiles, unless the caller says otherwise
 
@@ -362,8 +362,12 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     }
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout->reader;
-    statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
-    if (pel_model_skips_nothing(scene))
+    statistics->skip = scene->render.skip;
+    struct pel_skip_facts facts;
+    pel_skip_find_facts(&facts, scene, world, layout->reader);
+    if (scene->render.skip == PEL_SKIP_AUTO)
+        statistics->skip = pel_skip_choose(&facts, statistics->skip_reason);
+    else if (facts.nothing)
         statistics->skip = PEL_SKIP_NONE;
     statistics->prepare_ms = lap_ms(&mark);
     return true;

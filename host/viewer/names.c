@@ -83,8 +83,8 @@ const char *const *pel_names_reconstruction(void) {
 }
 
 const char *const *pel_names_debug(void) {
-    static const char *const names[] = {"none",       "samples",   "spans", "volumes",
-                                        "work-group", "work-item", "time",  NULL};
+    static const char *const names[] = {"none",      "samples", "spans",    "volumes", "work-group",
+                                        "work-item", "time",    "clusters", "nodes",   NULL};
     return names;
 }
 

@@ -50,7 +50,8 @@ static const char *const skip_names[] = {"auto",   "none", "grid",   "distance",
                                          "octree", "bvh",  "blocks", NULL};
 static const char *const pool_names[] = {"auto", "off", "on", NULL};
 static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
-                                          "work-group", "work-item", "time",  NULL};
+                                          "work-group", "work-item", "time",  "clusters",
+                                          "nodes",      NULL};
 static const char *const pattern_names[] = {"regular",        "jittered",   "n-rooks",
                                             "multi-jittered", "hammersley", NULL};
 static const char *const reconstruction_names[] = {"box", "gaussian", NULL};

@@ -5,6 +5,7 @@
 #include "base/math.h"
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 #include "support/ways.h"
@@ -214,30 +215,23 @@ static void test_convex(void **state) {
 
 // ---- What is refused ---------------------------------------------------------------------------
 
-static void expect_refused(const struct pel_scene *scene, const char *why) {
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
-    assert_null(pel_renderer_render(renderer, scene, NULL, NULL));
-    assert_int_equal(pel_error_code(), PEL_ERROR_ARGUMENT);
-    if (!strstr(pel_error_message(), why))
-        fail_msg("'%s' does not say '%s'", pel_error_message(), why);
-    pel_renderer_destroy(renderer);
-}
-
 static void test_refusals(void **state) {
     (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
     struct pel_scene *scene = scene_of(true, true);
     add(scene, PEL_VOXEL_U8, 0);
     struct pel_ambient_occlusion *occlusion = &scene->render.ambient_occlusion;
     occlusion->directions = 65;
-    expect_refused(scene, "ambient occlusion in 65 directions, outside 1..64");
+    render_refused(renderer, scene, "ambient occlusion in 65 directions, outside 1..64");
     occlusion->step = 0.1;
-    expect_refused(scene, "ambient occlusion in steps of 0.1, outside 0.25..64");
+    render_refused(renderer, scene, "ambient occlusion in steps of 0.1, outside 0.25..64");
     occlusion->radius_mm = NAN;
-    expect_refused(scene, "ambient occlusion over nan mm");
+    render_refused(renderer, scene, "ambient occlusion over nan mm");
     scene->render.shadows.strength = 2;
-    expect_refused(scene, "shadows of strength 2, outside 0..1");
+    render_refused(renderer, scene, "shadows of strength 2, outside 0..1");
     scene->render.shadows.length_mm = -1;
-    expect_refused(scene, "shadows over -1 mm");
+    render_refused(renderer, scene, "shadows over -1 mm");
+    pel_renderer_destroy(renderer);
     pel_scene_destroy(scene);
 }
 
