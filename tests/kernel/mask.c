@@ -106,6 +106,37 @@ static void test_absent(void **state) {
     pel_renderer_destroy(renderer);
 }
 
+// A recipe decides at every place anew: here a ball of 30 mm, however coarse its grid.
+static void test_recipe(void **state) {
+    (void)state;
+    const double thin[4] = {1, 0.2, 0, 0.02};
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
+    struct pel_scene *scene = scene_create(8, 8);
+    scene_view_parallel(scene, 40);
+    struct pel_volume *volume = scene_volume_constant((int[]){16, 16, 16}, PEL_VOXEL_U8, 100);
+    scene_place(volume, (double[]){6, 6, 6}, (double[]){0, 0, 0, 1}, (double[]){0, 0, 0}, false);
+    scene_add(scene, volume, scene_transfer_constant(thin));
+    struct pel_bake_options options = {.size = 4, .type = PEL_VOXEL_F32};
+    struct pel_volume *recipe = pel_volume_hypertexture("{\"value\": \"radius\"}", &options, true);
+    if (!recipe)
+        fail_msg("%s", pel_error_message());
+    scene->volumes[scene->volume_count++] = recipe;
+    scene->statistics[1] = (struct pel_statistics){.max = 1};
+    scene_add_again(scene, 1, scene_transfer_constant(thin))->hidden = true;
+    // The recipe's cube of 100 mm reaches from -1 to 1.
+    scene->instances[0].mask =
+        (struct pel_mask){.instance = 1, .range_count = 1, .ranges = {{0, 0.6}}};
+    scene->render.step = 1.0 / 12;
+    struct pel_image *picture = judge_render(renderer, scene, NULL, "recipe");
+    for (int x = 0; x < 8; x++) {
+        double across = 5 * (x - 3.5), half = sqrt(900 - across * across - 2.5 * 2.5);
+        assert_near(picture->rgba[4 * (4 * 8 + x) + 3], 1 - pow(1 - thin[3], 2 * half), 0.02);
+    }
+    pel_image_destroy(picture);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
 // Labels 0 to 3 in blocks of a few voxels.
 static double block_field(const double p_voxel[3], const void *user) {
     double size = *(const double *)user;
@@ -241,11 +272,9 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_chords),
-        cmocka_unit_test(test_absent),
-        cmocka_unit_test(test_against_reference),
-        cmocka_unit_test(test_slabs_and_pool),
-        cmocka_unit_test(test_segments),
+        cmocka_unit_test(test_chords),         cmocka_unit_test(test_absent),
+        cmocka_unit_test(test_recipe),         cmocka_unit_test(test_against_reference),
+        cmocka_unit_test(test_slabs_and_pool), cmocka_unit_test(test_segments),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
