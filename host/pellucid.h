@@ -565,7 +565,7 @@ struct pel_light {
 
 // How empty space is skipped. The picture is the same with each.
 enum pel_skip {
-    PEL_SKIP_AUTO,     // what is fastest as a rule: distance
+    PEL_SKIP_AUTO,     // what is fastest as a rule (docs/skipping.md): mostly distance
     PEL_SKIP_NONE,     // every sample is taken
     PEL_SKIP_GRID,     // empty cells of 4^3 voxels are left one by one
     PEL_SKIP_DISTANCE, // and many at once, by the distance to the nearest cell that is not empty
@@ -581,6 +581,8 @@ enum pel_pool_use {
     PEL_POOL_OFF,
     PEL_POOL_ON,
 };
+
+enum { PEL_SKIP_REASON_BYTES = 64 };
 
 // The cubes of voxels in which PEL_SKIP_BVH (Ganter & Manzke 2019) and PEL_SKIP_BLOCKS (Derin et
 // al. 2021; its sub-blocks) look for what is visible.
@@ -630,6 +632,8 @@ enum pel_debug {
     PEL_DEBUG_WORK_GROUP, // which work-group made the pixel, a colour each
     PEL_DEBUG_WORK_ITEM,  // which work-item of its group
     PEL_DEBUG_TIME,       // milliseconds that the pixel's tile took, each launched on its own
+    PEL_DEBUG_CLUSTERS,   // of skip bvh: clusters that the ray crosses; of blocks: blocks
+    PEL_DEBUG_NODES,      // and nodes of the hierarchy over them
 };
 
 #define PEL_SECONDARY_STEP_MIN 0.25
@@ -655,6 +659,16 @@ struct pel_ambient_occlusion {
     double strength;  // share of the light that is taken, up to 1; 0 = 1
 };
 
+// Whether volumes are shown coarser than they are, where the picture does not show the difference
+// (docs/picture.md, "Level of detail").
+enum pel_lod {
+    PEL_LOD_OFF,   // as they are
+    PEL_LOD_AUTO,  // each at the level at which its voxels are about as large as a pixel
+    PEL_LOD_LEVEL, // all at `lod_level`
+};
+
+#define PEL_LOD_LEVEL_MAX 15
+
 struct pel_render_settings {
     int width, height;      // pixels
     int region[4];          // the part of it that is rendered: left and top edge, width and height
@@ -676,6 +690,8 @@ struct pel_render_settings {
     enum pel_debug debug; //
     struct pel_shadows shadows;
     struct pel_ambient_occlusion ambient_occlusion; // its directions follow the seed
+    enum pel_lod lod; // labels, and volumes of filter nearest, stay as they are
+    int lod_level;    // 0..PEL_LOD_LEVEL_MAX: voxels of 2^level times their shortest side
 };
 
 #define PEL_WALL_MAX 32
@@ -882,6 +898,11 @@ struct pel_brick_report {
 PEL_API bool pel_scene_measure_bricks(const struct pel_scene *scene, int instance,
                                       struct pel_brick_report reports[PEL_BRICK_SIZES]);
 
+// Which way to skip PEL_SKIP_AUTO takes for a scene on a device that has room for all its volumes,
+// and why in a few words. False: ARGUMENT, MEMORY.
+PEL_API bool pel_scene_choose_skip(const struct pel_scene *scene, enum pel_skip *skip,
+                                   char reason[PEL_SKIP_REASON_BYTES]);
+
 // ---- Devices -----------------------------------------------------------------------------------
 
 enum pel_reader { PEL_READER_AUTO, PEL_READER_BUFFER, PEL_READER_IMAGE };
@@ -940,6 +961,13 @@ struct pel_kernel_info {
     uint64_t private_bytes, local_bytes; // of each work-item, and of each work-group
 };
 
+// The levels of detail of one frame.
+struct pel_lod_statistics {
+    int levels[PEL_VOLUME_MAX]; // of each instance; 0: its volume as it is
+    uint64_t bytes;             // of all voxels that are shown; 0 when lod is off
+    double ms;                  // for making levels that were not there yet
+};
+
 // What one frame took.
 struct pel_render_statistics {
     char device[128], driver[128];
@@ -954,10 +982,12 @@ struct pel_render_statistics {
     uint64_t uploaded_bytes;     // sent to the device for this frame
     struct pel_kernel_info kernel;
     enum pel_skip skip;
-    uint64_t skip_bytes; // of device_bytes, those for skipping
+    char skip_reason[PEL_SKIP_REASON_BYTES]; // of auto: why this one; "": it was asked for
+    uint64_t skip_bytes;                     // of device_bytes, those for skipping
     struct pel_brick_statistics bricks;
     double prepare_ms, build_ms, upload_ms, skip_ms, render_ms, download_ms;
     struct pel_debug_range debug; // of the scene's debug view, zeros without one
+    struct pel_lod_statistics lod;
     // Of two eyes; all of the above is then their sum.
     struct {
         double separation_mm, convergence_mm; // as they were used

@@ -42,10 +42,52 @@ INLINE integer crossed_spans(const struct crossing *crossing) {
     return spans;
 }
 
+#if SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
+// The nodes of all hierarchies whose box a ray crosses where it has samples, or their leaves alone: clusters, or blocks.
+// What is in front of the eye is not told from what opacity hides.
+INLINE integer crossed_nodes(__constant struct world *world, __global const uchar *cells,
+                             const struct crossing *crossing, bool leaves) {
+    integer count = (integer)(0);
+    for (int c = 0; c < crossing->count; c++) {
+        const struct cursor *cursor = &crossing->cursors[c];
+        __constant struct part *part = &world->parts[LISTED(crossing->parts, c)];
+        __global const struct bvh_node *nodes = part_nodes(part, cells);
+        const mask runs = MASK(cursor->first < cursor->end);
+        const real first = TO_REAL(cursor->first), end = TO_REAL(cursor->end);
+        int stack[BVH_DEPTH_MAX + 2];
+        int depth = 0;
+        if (nodes)
+            stack[depth++] = 0;
+        while (depth > 0) {
+            const int n = stack[--depth];
+            const struct span span = node_span(&nodes[n], cursor);
+            const mask crosses =
+                runs & MASK(span.near < span.far) & MASK(span.near < end) & MASK(span.far > first);
+            if (!any_lane(crosses))
+                continue;
+            const int link = nodes[n].link;
+            if (!leaves || link < 0)
+                count += CHOOSE((integer)(0), (integer)(1), crosses);
+            if (link >= 0) {
+                stack[depth++] = link;
+                stack[depth++] = n + 1;
+            }
+        }
+    }
+    return count;
+}
+#endif
+
 // The number that the view shows of each ray.
-INLINE real debug_number(__constant struct world *world, const struct crossing *crossing,
-                         integer samples) {
+INLINE real debug_number(__constant struct world *world, __global const uchar *cells,
+                         const struct crossing *crossing, integer samples) {
     switch (world->debug) {
+#if SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
+    case DEBUG_CLUSTERS:
+        return TO_REAL(crossed_nodes(world, cells, crossing, true));
+    case DEBUG_NODES:
+        return TO_REAL(crossed_nodes(world, cells, crossing, false));
+#endif
     case DEBUG_SPANS:
         return TO_REAL(crossed_spans(crossing));
     case DEBUG_PARTS:

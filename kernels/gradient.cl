@@ -7,6 +7,7 @@
 #ifndef GRADIENT_CL
 #define GRADIENT_CL
 
+#include "gradient_brick.cl"
 #include "sample.cl"
 
 #ifndef SHADING
@@ -37,6 +38,12 @@ INLINE real neighbour(MEMORY_PARAMETERS, __constant struct part *part, real raw,
 
 INLINE void central_differences(MEMORY_PARAMETERS, __constant struct part *part, real raw, real x,
                                 real y, real z, real difference[3]) {
+#if BRICK_GRADIENT
+    if (HAS_BRICK_GRADIENT(part)) {
+        brick_differences(MEMORY_ARGUMENTS, part, x, y, z, difference);
+        return;
+    }
+#endif
     for (int axis = 0; axis < 3; axis++) {
         const float dx = axis == 0 ? 1.0f : 0.0f, dy = axis == 1 ? 1.0f : 0.0f,
                     dz = axis == 2 ? 1.0f : 0.0f;

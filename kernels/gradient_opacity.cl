@@ -23,7 +23,7 @@ INLINE real style_factor(__constant struct part *part, const struct ray *ray,
     const real length = sqrt(dot_lanes(normal, normal));
     const real facing = fabs(normal->x * ray->dx + normal->y * ray->dy + normal->z * ray->dz);
     const real away = AT_LEAST(length - facing, (real)(1e-30f));
-    return factor * (silhouette.x + silhouette.y * exp2(silhouette.z * log2(away)));
+    return factor * (silhouette.x + silhouette.y * power(away, (real)(silhouette.z)));
 }
 
 // A strength for extinction multiplied by a factor.

@@ -78,6 +78,7 @@ typedef LANES_JOIN(int, LANES) mask;
 #define TO_INTEGER(v) LANES_JOIN(lanes_convert_int, LANES)(v)
 #define TO_REAL(v) LANES_JOIN(lanes_convert_float, LANES)(v)
 #define AS_REAL(v) LANES_JOIN(lanes_as_float, LANES)(v)
+#define AS_INTEGER(v) LANES_JOIN(lanes_as_int, LANES)(v)
 #define lanes_convert_int1 convert_int
 #define lanes_convert_int4 convert_int4
 #define lanes_convert_int8 convert_int8
@@ -90,6 +91,10 @@ typedef LANES_JOIN(int, LANES) mask;
 #define lanes_as_float4 as_float4
 #define lanes_as_float8 as_float8
 #define lanes_as_float16 as_float16
+#define lanes_as_int1 as_int
+#define lanes_as_int4 as_int4
+#define lanes_as_int8 as_int8
+#define lanes_as_int16 as_int16
 
 // Oclgrind reads a scalar second operand of min and max on integers as if it were a vector, so both operands are of
 // one type everywhere.

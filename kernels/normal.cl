@@ -8,6 +8,7 @@
 #define NORMAL_CL
 
 #include "gradient.cl"
+#include "power.cl"
 #include "ray.cl"
 #include "sample.cl"
 
@@ -26,7 +27,7 @@ INLINE real dot_lanes(const struct vector *a, const struct vector *b) {
 
 // Scales a vector to length 1; nothing stays nothing.
 INLINE void make_unit(struct vector *v) {
-    const real scale = 1.0f / sqrt(dot_lanes(v, v) + 1e-30f);
+    const real scale = fast_rsqrt(dot_lanes(v, v) + 1e-30f);
     v->x *= scale;
     v->y *= scale;
     v->z *= scale;
@@ -39,9 +40,13 @@ INLINE struct vector find_normal(MEMORY_PARAMETERS, __constant struct part *part
                                  real y, real z, real *slope) {
     real difference[3];
     find_differences(MEMORY_ARGUMENTS, part, raw, x, y, z, difference);
-    // The squares of what floats can hold could be infinite.
-    for (int axis = 0; axis < 3; axis++)
-        difference[axis] = clamp(difference[axis] * part->normal_scale, -1e9f, 1e9f);
+    for (int axis = 0; axis < 3; axis++) {
+        difference[axis] *= part->normal_scale;
+#if VOXELS & VOXELS_F32
+        // The squares of what floats can hold could be infinite.
+        difference[axis] = clamp(difference[axis], -1e9f, 1e9f);
+#endif
+    }
     __constant const float4 *rows = part->voxel_from_world;
     struct vector normal;
     normal.x = rows[0].x * difference[0] + rows[1].x * difference[1] + rows[2].x * difference[2];
@@ -49,8 +54,9 @@ INLINE struct vector find_normal(MEMORY_PARAMETERS, __constant struct part *part
     normal.z = rows[0].z * difference[0] + rows[1].z * difference[1] + rows[2].z * difference[2];
     const real square = dot_lanes(&normal, &normal);
     *slope = sqrt(square);
-    const real scale = part->spacing_mm / sqrt(square * (part->spacing_mm * part->spacing_mm) +
-                                               SHADE_SOFTNESS * SHADE_SOFTNESS);
+    const real scale =
+        part->spacing_mm * fast_rsqrt(square * (part->spacing_mm * part->spacing_mm) +
+                                      SHADE_SOFTNESS * SHADE_SOFTNESS);
     normal.x *= scale;
     normal.y *= scale;
     normal.z *= scale;

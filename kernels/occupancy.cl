@@ -2,8 +2,8 @@
 //
 // The first pass compares each cell's range of values with the table: a count of visible entries up
 // to each one answers whether a range holds any with two look-ups. Three more turn that into
-// distances, one axis at a time: the Chebyshev distance separates, D(x) = min over k of max(|k|,
-// D(x + k)). For an octree the passes go up its levels instead, each over the nodes of one level,
+// distances, one axis at a time and a row of cells at a time: the Chebyshev distance separates,
+// D(x) = min over k of max(|k|, D(x + k)). For an octree the passes go up its levels instead, each over the nodes of one level,
 // and a last one brings down to every cell the largest empty node around it: a cell holds 0 where
 // something may be visible, else one more than that node's level.
 //
@@ -92,23 +92,55 @@ static uchar find_cell(__constant struct world *world, __constant struct part *p
     return occupied(part, range, counts + part->visible, linear) ? 0 : empty;
 }
 
-// The distance of cell i, spread along one axis (0, 1, 2).
-static uchar spread(__constant struct part *part, __global const uchar *cell, struct cell_dims dims,
-                    int i, uint axis) {
-    const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
-    const int at = axis == 0 ? x : axis == 1 ? y : z;
-    const int size = axis == 0 ? dims.x : axis == 1 ? dims.y : dims.z;
-    const int stride = axis == 0 ? 1 : axis == 1 ? part->cell_row : part->cell_slice;
-    int best = *cell;
-    for (int k = 1; k < best; k++) {
-        if (at - k >= 0)
-            best = min(best, max(k, (int)cell[-k * stride]));
-        if (at + k < size)
-            best = min(best, max(k, (int)cell[k * stride]));
-        if (at - k < 0 && at + k >= size)
-            break;
+// Where a row of cells begins that runs along one axis (0, 1, 2), and how it goes on.
+struct cell_row {
+    int start, stride, count;
+};
+
+// One way along a row. What a cell is told from behind is the least of max(k, distance of the k-th cell behind it), which
+// grows by no more than one from cell to cell: it stays what it was, v, as long as a cell with no more than v is no
+// further than v away. `last` has where each distance was met last.
+static void spread_one_way(__global const uchar *in, __global uchar *out, struct cell_row row,
+                           bool back) {
+    short last[CELL_DISTANCE_MAX + 1];
+    for (int d = 0; d <= CELL_DISTANCE_MAX; d++)
+        last[d] = -CELL_DISTANCE_MAX - 1;
+    int best = CELL_DISTANCE_MAX, met = -CELL_DISTANCE_MAX - 1;
+    for (int n = 0; n < row.count; n++) {
+        const int at = row.start + (back ? row.count - 1 - n : n) * row.stride;
+        const int own = in[at];
+        last[own] = (short)n;
+        if (own <= best) {
+            best = own;
+            met = n;
+        } else if (n - met > best && best < CELL_DISTANCE_MAX) {
+            best++;
+            met = max(met, (int)last[best]);
+        }
+        out[at] = (uchar)(back ? min(best, (int)out[at]) : best);
     }
-    return (uchar)best;
+}
+
+// Spreads distances along the i-th row of an axis, both ways.
+static void spread(__constant struct part *part, __global const uchar *in, __global uchar *out,
+                   struct cell_dims dims, int i, uint axis) {
+    struct cell_row row = {i * dims.x, 1, dims.x};
+    int rows = dims.y * dims.z;
+    if (axis == 1) {
+        row.start = i / dims.x * part->cell_slice + i % dims.x;
+        row.stride = part->cell_row;
+        row.count = dims.y;
+        rows = dims.x * dims.z;
+    } else if (axis == 2) {
+        row.start = i;
+        row.stride = part->cell_slice;
+        row.count = dims.z;
+        rows = dims.x * dims.y;
+    }
+    if (i >= rows)
+        return;
+    spread_one_way(in, out, row, false);
+    spread_one_way(in, out, row, true);
 }
 
 // Work-item i joins what the eight children of node i of a level found. Nothing else writes to the
@@ -205,7 +237,7 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     else if (pass > PASS_MERGE)
         merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
     else
-        out[i] = spread(part, in + i, dims, (int)i, pass);
+        spread(part, in, out, dims, (int)i, pass);
 }
 
 #endif

@@ -238,7 +238,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     counts[SAMPLES_POSSIBLE] += (uint)sum_lanes(crossing.possible);
     counts[SAMPLES_BEHIND] += (uint)sum_lanes(crossing.behind);
 #if DEBUG
-    light.r = debug_number(world, &crossing, samples);
+    light.r = debug_number(world, cells, &crossing, samples);
 #endif
     store_pixels(world, picture, eye, left, top, &ray, &light);
 }

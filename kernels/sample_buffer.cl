@@ -191,6 +191,14 @@ INLINE void sample_rgba(struct sample *s, __global const int *voxels, const stru
 }
 #endif
 
+// The buffer that a part's voxels are in.
+INLINE __global const uchar *part_buffer(MEMORY_PARAMETERS, __constant struct part *part) {
+    return part->buffer == 0   ? buffer0
+           : part->buffer == 1 ? buffer1
+           : part->buffer == 2 ? buffer2
+                               : buffer3;
+}
+
 INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
                                 real x, real y, real z) {
     // Positions are positive, so truncation is floor.
@@ -200,11 +208,7 @@ INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part,
                               .x = x - TO_REAL(ix),
                               .y = y - TO_REAL(iy),
                               .z = z - TO_REAL(iz)};
-    __global const uchar *buffer = part->buffer == 0   ? buffer0
-                                   : part->buffer == 1 ? buffer1
-                                   : part->buffer == 2 ? buffer2
-                                                       : buffer3;
-
+    __global const uchar *buffer = part_buffer(MEMORY_ARGUMENTS, part);
     struct sample s;
     s.raw = (real)(0.0f);
 #if VOXELS & VOXELS_U8

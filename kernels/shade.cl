@@ -25,13 +25,19 @@
 
 #if SHADING
 // The cosine that the highlight is a power of.
-INLINE real highlight_cosine(__constant struct part *part, const struct vector *normal,
-                             const struct vector *l, const struct vector *v) {
+INLINE real highlight_cosine(__constant struct part *part, __constant struct lamp *lamp,
+                             const struct vector *normal, const struct vector *l,
+                             const struct vector *v) {
     if (part->shading == SHADING_PHONG) // between the mirrored light and the viewer
         return 2.0f * dot_lanes(normal, l) * dot_lanes(normal, v) -
                dot_lanes(normal, normal) * dot_lanes(l, v);
-    struct vector half_way = {l->x + v->x, l->y + v->y, l->z + v->z};
-    make_unit(&half_way);
+    struct vector half_way = *v;
+    if (lamp->kind != LAMP_HEADLIGHT) {
+        half_way.x += l->x;
+        half_way.y += l->y;
+        half_way.z += l->z;
+        make_unit(&half_way);
+    }
     const real cosine = dot_lanes(normal, &half_way);
     return part->one_sided ? cosine : fabs(cosine);
 }
@@ -54,9 +60,9 @@ INLINE void light_up(FRAME_PARAMETERS, __constant struct part *part, MEMORY_PARA
         const struct vector l = towards_lamp(lamp, ray, t);
         const real facing = dot_lanes(normal, &l);
         const real lit = part->one_sided ? AT_LEAST(facing, zero) : fabs(facing);
-        const real cosine = highlight_cosine(part, normal, &l, &v);
+        const real cosine = highlight_cosine(part, lamp, normal, &l, &v);
         // The cosine's floor makes a power of nothing as good as nothing.
-        real shine = exp2(material.w * log2(AT_LEAST(cosine, (real)(1e-30f))));
+        real shine = power(AT_LEAST(cosine, (real)(1e-30f)), (real)(material.w));
         if (part->one_sided)
             shine = CHOOSE(zero, shine, MASK(facing > 0.0f));
         real diffuse = material.y * lit, specular = material.z * shine;

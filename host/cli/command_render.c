@@ -113,6 +113,17 @@ static json_t *describe_stereo(struct run *run) {
     return object;
 }
 
+static json_t *describe_lod(const struct pel_scene *scene,
+                            const struct pel_lod_statistics *statistics) {
+    json_t *levels = json_array(), *object = json_object();
+    for (int k = 0; k < scene->instance_count; k++)
+        json_array_append_new(levels, json_integer(statistics->levels[k]));
+    json_object_set_new(object, "levels", levels);
+    json_object_set_new(object, "bytes", json_integer((json_int_t)statistics->bytes));
+    json_object_set_new(object, "ms", report_number(statistics->ms));
+    return object;
+}
+
 static json_t *describe_bricks(const struct pel_brick_statistics *bricks) {
     json_t *object = json_object();
     json_object_set_new(object, "size", json_integer(bricks->size));
@@ -154,7 +165,11 @@ static int print_json(struct run *run) {
                             json_pack("{s:f, s:f, s:f}", "min", statistics->debug.min, "max",
                                       statistics->debug.max, "mean", statistics->debug.mean));
     json_object_set_new(object, "skip", json_string(report_skip(statistics->skip)));
+    if (statistics->skip_reason[0])
+        json_object_set_new(object, "skip_reason", json_string(statistics->skip_reason));
     json_object_set_new(object, "skip_bytes", json_integer((json_int_t)statistics->skip_bytes));
+    if (statistics->lod.bytes > 0)
+        json_object_set_new(object, "lod", describe_lod(run->scene, &statistics->lod));
     if (statistics->bricks.size > 0)
         json_object_set_new(object, "bricks", describe_bricks(&statistics->bricks));
     const struct {

@@ -54,6 +54,16 @@ static void print_instance(const struct pel_scene *scene, int number) {
     describe_print(scene->volumes[instance->volume], &scene->statistics[instance->volume], INDENT);
 }
 
+// What a renderer with room for all volumes would skip by, and why.
+static void print_skip(const struct pel_scene *scene) {
+    enum pel_skip skip;
+    char reason[PEL_SKIP_REASON_BYTES];
+    if (scene->render.skip != PEL_SKIP_AUTO)
+        printf("  %-12s %s, as asked for\n", "skipping", report_skip(scene->render.skip));
+    else if (pel_scene_choose_skip(scene, &skip, reason))
+        printf("  %-12s %s: %s\n", "skipping", report_skip(skip), reason);
+}
+
 void describe_scene(const struct pel_scene *scene) {
     const struct pel_camera *camera = &scene->camera;
     printf("  %-12s %d x %d pixels, mixing %s, step %.6g\n", "picture", scene->render.width,
@@ -65,6 +75,7 @@ void describe_scene(const struct pel_scene *scene) {
         printf("  %-12s %.6g, %.6g, %.6g to %.6g, %.6g, %.6g mm\n", "bounds", bounds.low[0],
                bounds.low[1], bounds.low[2], bounds.high[0], bounds.high[1], bounds.high[2]);
     print_clips(scene->clips, scene->clip_count, 2);
+    print_skip(scene);
     for (int i = 0; i < scene->instance_count; i++)
         print_instance(scene, i);
 }
@@ -121,6 +132,12 @@ json_t *describe_scene_json(const struct pel_scene *scene) {
     json_object_set_new(object, "step", report_number(scene->render.step));
     json_object_set_new(object, "eye", report_numbers(scene->camera.eye, 3));
     json_object_set_new(object, "target", report_numbers(scene->camera.target, 3));
+    enum pel_skip skip = scene->render.skip;
+    char reason[PEL_SKIP_REASON_BYTES] = "";
+    if (skip != PEL_SKIP_AUTO || pel_scene_choose_skip(scene, &skip, reason))
+        json_object_set_new(object, "skip", json_string(report_skip(skip)));
+    if (reason[0])
+        json_object_set_new(object, "skip_reason", json_string(reason));
     json_object_set_new(object, "clips", clips_json(scene->clips, scene->clip_count));
     json_t *list = json_array();
     for (int i = 0; i < scene->instance_count; i++)

@@ -36,6 +36,7 @@ enum {
     KEY_DEBUG,
     KEY_DENSITY,
     KEY_SHADING,
+    KEY_LOD,
     KEY_SHADOWS,
     KEY_AMBIENT_OCCLUSION,
     KEY_BACKGROUND,
@@ -151,6 +152,8 @@ static const struct argp_option argp_options[] = {
      0},
     {"skip", KEY_SKIP, "auto|none|grid|distance|octree|bvh|blocks", 0,
      "How empty space is skipped; the picture is the same with each", 0},
+    {"lod", KEY_LOD, "off|auto|N", 0,
+     "Show volumes coarser: far ones as coarse as a pixel, or all at level N", 0},
     {"supersample", KEY_SUPERSAMPLE, "N", 0, "N x N rays for each pixel, N up to 8", 0},
     {"supersample-pattern", KEY_PATTERN, "regular|jittered|n-rooks|multi-jittered|hammersley", 0,
      "Where they go through the pixel", 0},
@@ -160,7 +163,7 @@ static const struct argp_option argp_options[] = {
      "N x N rays only where neighbouring pixels differ by more than X, 0 to 1", 0},
     {"seed", KEY_SEED, "N", 0, "Seed of all random patterns", 0},
     {"jitter", KEY_JITTER, NULL, 0, "A random phase for every ray", 0},
-    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time", 0,
+    {"debug", KEY_DEBUG, "samples|spans|volumes|work-group|work-item|time|clusters|nodes", 0,
      "Show a number of each pixel's ray in place of its light, as a heat map", 0},
     {0, 0, NULL, 0, "The device:", 5},
     {"device", KEY_DEVICE, "D", 0,
@@ -252,22 +255,6 @@ static bool add_camera(struct render_options *options, const char *text) {
     if (strchr(text, '='))
         return overrides_add_pairs(&options->overrides, "--camera", "camera", text);
     overrides_add_text(&options->overrides, "camera.view", text);
-    return true;
-}
-
-// A key that is true, false or an object.
-static bool add_switch(struct render_options *options, const char *option, const char *key,
-                       const char *text) {
-    if (text && strchr(text, '=')) {
-        overrides_add(&options->overrides, key, "{}");
-        return overrides_add_pairs(&options->overrides, option, key, text);
-    }
-    if (text && strcmp(text, "on") != 0 && strcmp(text, "off") != 0) {
-        cli_fail(PEL_ERROR_ARGUMENT, "%s: '%s' is not on, off or KEY=VALUE,...", option, text);
-        return false;
-    }
-    bool off = text && strcmp(text, "off") == 0;
-    overrides_add(&options->overrides, key, off ? "false" : "true");
     return true;
 }
 
@@ -394,13 +381,18 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         good = add_number(options, "--density", "volumes.*.density", argument);
         break;
     case KEY_SHADING:
-        good = add_switch(options, "--shading", "volumes.*.shading", argument);
+        good =
+            overrides_add_switch(&options->overrides, "--shading", "volumes.*.shading", argument);
+        break;
+    case KEY_LOD:
+        overrides_add(&options->overrides, "render.lod", argument);
         break;
     case KEY_SHADOWS:
-        good = add_switch(options, "--shadows", "render.shadows", argument);
+        good = overrides_add_switch(&options->overrides, "--shadows", "render.shadows", argument);
         break;
     case KEY_AMBIENT_OCCLUSION:
-        good = add_switch(options, "--ambient-occlusion", "render.ambient_occlusion", argument);
+        good = overrides_add_switch(&options->overrides, "--ambient-occlusion",
+                                    "render.ambient_occlusion", argument);
         break;
     case KEY_BACKGROUND:
         add_background(options, argument);

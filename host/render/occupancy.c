@@ -69,11 +69,11 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
 }
 
 // The passes after the first: from `scratch`, which holds what is empty, to `cells`.
-static bool spread_distances(struct pel_occupancy *occupancy, size_t count) {
-    const struct pel_buffer *cells = occupancy->cells, *scratch = occupancy->scratch;
-    return pel_pass_run(occupancy, scratch, cells, count, 0) &&
-           pel_pass_run(occupancy, cells, scratch, count, 1) &&
-           pel_pass_run(occupancy, scratch, cells, count, 2);
+static bool spread_distances(struct pel_occupancy *occupancy, const size_t cells[3]) {
+    const struct pel_buffer *to = occupancy->cells, *from = occupancy->scratch;
+    return pel_pass_run(occupancy, from, to, cells[1] * cells[2], 0) &&
+           pel_pass_run(occupancy, to, from, cells[0] * cells[2], 1) &&
+           pel_pass_run(occupancy, from, to, cells[0] * cells[1], 2);
 }
 
 // Joins empty nodes level by level up to the root, and tells every cell.
@@ -161,7 +161,7 @@ static bool derive(struct pel_occupancy *occupancy, const struct pel_world *worl
         else if (occupancy->key.skip == PEL_SKIP_BVH)
             good = good && find_bricks(occupancy, world, p, occupancy->key.bricks.size);
         else if (occupancy->key.skip == PEL_SKIP_DISTANCE)
-            good = good && spread_distances(occupancy, count);
+            good = good && spread_distances(occupancy, cells);
     }
     return good;
 }

@@ -1,7 +1,8 @@
 // passes.c - passes of the occupancy kernel over the cells of a part.
 #include "render/passes.h"
 
-enum { GROUP = 16 };
+// Cells are many and little work each.
+enum { GROUP = 64 };
 
 bool pel_pass_set_part(struct pel_occupancy *occupancy, const struct pel_world *world, int p,
                        size_t cells[3], size_t *count) {
@@ -14,9 +15,12 @@ bool pel_pass_set_part(struct pel_occupancy *occupancy, const struct pel_world *
 bool pel_pass_run(struct pel_occupancy *occupancy, const struct pel_buffer *in,
                   const struct pel_buffer *out, size_t items, uint32_t pass) {
     struct pel_kernel *kernel = occupancy->kernel;
+    size_t group = GROUP, most = pel_kernel_max_group(kernel);
+    while (group > most && group > 1)
+        group /= 2;
     return pel_kernel_set_buffer(kernel, 3, in) && pel_kernel_set_buffer(kernel, 4, out) &&
            pel_kernel_set_u32(kernel, 8, pass) &&
-           pel_kernel_launch(kernel, (items + GROUP - 1) / GROUP * GROUP, GROUP);
+           pel_kernel_launch(kernel, (items + group - 1) / group * group, group);
 }
 
 uint32_t pel_pass_bits(const struct pel_world *world, int size) {

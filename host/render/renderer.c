@@ -12,6 +12,7 @@
 #include "device/device.h"
 #include "render/bakery.h"
 #include "render/debug.h"
+#include "render/detail.h"
 #include "render/frame.h"
 #include "render/kernel_cache.h"
 #include "render/mirror.h"
@@ -25,7 +26,7 @@
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
-#include "world/model.h"
+#include "world/skip.h"
 
 struct pel_renderer {
     struct pel_device *device;
@@ -37,6 +38,7 @@ struct pel_renderer {
     struct pel_occupancy occupancy;
     struct pel_resolve resolve;
     struct pel_bakery bakery;
+    struct pel_detail detail;
     struct pel_target target;
     struct pel_buffer *sample_counts;
     size_t sample_counts_bytes;
@@ -339,8 +341,12 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     }
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout->reader;
-    statistics->skip = scene->render.skip == PEL_SKIP_AUTO ? PEL_SKIP_DISTANCE : scene->render.skip;
-    if (pel_model_skips_nothing(scene))
+    statistics->skip = scene->render.skip;
+    struct pel_skip_facts facts;
+    pel_skip_find_facts(&facts, scene, world, layout->reader);
+    if (scene->render.skip == PEL_SKIP_AUTO)
+        statistics->skip = pel_skip_choose(&facts, statistics->skip_reason);
+    else if (facts.nothing)
         statistics->skip = PEL_SKIP_NONE;
     statistics->prepare_ms = lap_ms(&mark);
     return true;
@@ -358,7 +364,8 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_world world;
     struct pel_scene shown;
     if (!pel_region_check(&scene->render) ||
-        !pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown))
+        !pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown) ||
+        !pel_detail_show(&renderer->detail, &shown))
         return NULL;
     pel_region_widen(&shown.render);
     if (!plan(renderer, &shown, eyes, &layout, &world, statistics))
@@ -379,6 +386,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     const struct pel_device_info *info = pel_device_describe(renderer->device);
     memcpy(statistics->device, info->name, sizeof statistics->device);
     memcpy(statistics->driver, info->driver, sizeof statistics->driver);
+    statistics->lod = renderer->detail.statistics;
     statistics->device_bytes = pel_device_allocated_bytes(renderer->device);
     statistics->uploaded_bytes = pel_device_uploaded_bytes(renderer->device) - uploaded_before;
     return pel_region_cut(image, &shown.render, &scene->render);
@@ -391,7 +399,8 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
         return pel_fail(PEL_ERROR_ARGUMENT, "pixel %d,%d is outside the picture of %d x %d", x, y,
                         scene->render.width, scene->render.height);
     struct pel_scene seen;
-    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen))
+    if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen) ||
+        !pel_detail_show(&renderer->detail, &seen))
         return false;
     memset(seen.render.region, 0, sizeof seen.render.region);
     seen.render.debug = PEL_DEBUG_NONE;
@@ -460,6 +469,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_buffer_destroy(renderer->sample_counts);
     pel_kernel_cache_finish(&renderer->kernels);
     pel_bakery_finish(&renderer->bakery);
+    pel_detail_finish(&renderer->detail);
     pel_device_close(renderer->device);
     free(renderer);
 }

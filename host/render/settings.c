@@ -39,8 +39,14 @@ bool pel_settings_check(const struct pel_scene *scene) {
         return pel_fail(PEL_ERROR_ARGUMENT, "phase %g, outside 0..1", settings->phase);
     if (!(settings->termination >= 0 && settings->termination <= 1))
         return pel_fail(PEL_ERROR_ARGUMENT, "termination %g, outside 0..1", settings->termination);
-    if ((unsigned)settings->debug > PEL_DEBUG_TIME)
+    if ((unsigned)settings->debug > PEL_DEBUG_NODES)
         return pel_fail(PEL_ERROR_ARGUMENT, "debug view %d", (int)settings->debug);
+    if ((settings->debug == PEL_DEBUG_CLUSTERS || settings->debug == PEL_DEBUG_NODES) &&
+        settings->skip != PEL_SKIP_AUTO && settings->skip != PEL_SKIP_BVH &&
+        settings->skip != PEL_SKIP_BLOCKS)
+        return pel_fail(PEL_ERROR_ARGUMENT,
+                        "this debug view counts boxes of the hierarchy that only skip bvh and "
+                        "blocks have");
     if ((unsigned)settings->mixing > PEL_MIX_DIFFERENCE)
         return pel_fail(PEL_ERROR_ARGUMENT, "mixing of kind %d", (int)settings->mixing);
     for (int k = 0; k < scene->instance_count; k++)

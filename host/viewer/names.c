@@ -45,6 +45,11 @@ const char *const *pel_names_brick(void) {
     return names;
 }
 
+const char *const *pel_names_lod(void) {
+    static const char *const names[] = {"volumes as they are", "by distance", "one level", NULL};
+    return names;
+}
+
 const char *const *pel_names_filter(void) {
     static const char *const names[] = {"linear", "nearest", "cubic B-spline", "Catmull-Rom", NULL};
     return names;
@@ -78,8 +83,8 @@ const char *const *pel_names_reconstruction(void) {
 }
 
 const char *const *pel_names_debug(void) {
-    static const char *const names[] = {"none",       "samples",   "spans", "volumes",
-                                        "work-group", "work-item", "time",  NULL};
+    static const char *const names[] = {"none",      "samples", "spans",    "volumes", "work-group",
+                                        "work-item", "time",    "clusters", "nodes",   NULL};
     return names;
 }
 

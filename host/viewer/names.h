@@ -12,6 +12,7 @@ const char *const *pel_names_brick(void);
 const char *const *pel_names_filter(void);
 const char *const *pel_names_shading(void);
 const char *const *pel_names_light(void);
+const char *const *pel_names_lod(void);
 const char *const *pel_names_skip(void);
 const char *const *pel_names_pattern(void);
 const char *const *pel_names_reconstruction(void);

@@ -83,11 +83,24 @@ static void draw_skipping(struct pel_state *state) {
         draw_bricks(state);
 }
 
+static void draw_lod(struct pel_state *state) {
+    struct pel_render_settings *render = &state->scene->render;
+    int lod = (int)render->lod;
+    if (pel_widget_choose("level of detail", pel_names_lod(), &lod)) {
+        render->lod = (enum pel_lod)lod;
+        pel_panel_changed(state, "level of detail");
+    }
+    if (render->lod == PEL_LOD_LEVEL && pel_widget_slide_int("level", &render->lod_level, 0, 8))
+        pel_panel_changed(state, "level of detail");
+    pel_panel_settle(state);
+}
+
 void pel_panel_quality(struct pel_state *state) {
     struct pel_render_settings *render = &state->scene->render;
     draw_march(state);
     draw_rays(state);
     draw_skipping(state);
+    draw_lod(state);
     int debug = (int)render->debug;
     if (pel_widget_choose("debug view", pel_names_debug(), &debug)) {
         render->debug = (enum pel_debug)debug;

@@ -21,6 +21,9 @@
 // What has not changed for this long is at rest.
 static const double rest_ms = 150;
 
+// Between two pictures of a long frame's progress.
+static const double progress_ms = 100;
+
 // That can be undone.
 enum { STEPS = 200 };
 
@@ -219,6 +222,12 @@ static bool is_over(const struct pel_state *state) {
     return options->screenshot && options->frames == 0 && is_resting(state);
 }
 
+// A long frame's progress is drawn from time to time; drawing costs what rendering could use.
+static bool is_progress_due(const struct pel_state *state, bool was_busy) {
+    bool ended = was_busy && !state->status.busy;
+    return ended || (state->status.busy && state->now_ms - state->drawn_ms >= progress_ms);
+}
+
 static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes) {
     while (!is_over(state)) {
         pel_window_wait(wait_seconds(state));
@@ -235,7 +244,7 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
         pel_screen_name(state);
         bool was_busy = state->status.busy;
         ask_worker(state);
-        if (state->redraw || was_busy || state->status.busy)
+        if (state->redraw || is_progress_due(state, was_busy))
             pel_screen_draw(state);
         state->redraw = false;
         if (state->latency)

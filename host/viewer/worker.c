@@ -15,10 +15,13 @@
 #include "viewer/save.h"
 
 // How soon a frame in flight notices a new request.
-static const double batch_ms = 25;
+static const double batch_ms = 8;
 
 // A quick picture that takes this many times what it should gives way.
 static const double overdue = 2;
+
+// A quick picture that will take this many times what it should is not waited for.
+static const double too_late = 3;
 
 enum { SAVES = 8 };
 
@@ -53,6 +56,9 @@ struct frame {
     const struct pel_request *request;
     struct pel_quality quality;
     double begin_ms, patience_ms; // gives way to a new request only after this long
+    double limit_ms;              // is late when it takes longer; 0 = never
+    atomic_bool late;
+    _Atomic double first_ms, first_finished; // when its first batch was done, and which share
 };
 
 static void say(struct pel_worker *worker, const char *sentence) {
@@ -64,23 +70,39 @@ static void say(struct pel_worker *worker, const char *sentence) {
 
 // ---- One frame, on the thread ------------------------------------------------------------------
 
+// What the whole frame takes from its first batch on, as far as that can be told; 0 = not yet. What
+// comes before, building a kernel perhaps, is not paid for every time.
+static double projected_ms(struct frame *frame, double now_ms, double finished) {
+    double first_ms = atomic_load(&frame->first_ms), first = atomic_load(&frame->first_finished);
+    if (first_ms == 0) {
+        atomic_store(&frame->first_finished, finished);
+        atomic_store(&frame->first_ms, now_ms);
+        return 0;
+    }
+    return finished > first + 0.01 ? (now_ms - first_ms) / (finished - first) : 0;
+}
+
 static bool go_on(double finished, void *user) {
-    const struct frame *frame = user;
+    struct frame *frame = user;
+    double now_ms = pel_clock_ms(), projected = projected_ms(frame, now_ms, finished);
     atomic_store(&frame->worker->finished, finished);
-    return !atomic_load(&frame->worker->overtaken) ||
-           pel_clock_ms() - frame->begin_ms < frame->patience_ms;
+    if (frame->limit_ms > 0 && projected > frame->limit_ms &&
+        projected * (1 - finished) > frame->limit_ms / 2)
+        atomic_store(&frame->late, true);
+    return !atomic_load(&frame->late) && (!atomic_load(&frame->worker->overtaken) ||
+                                          now_ms - frame->begin_ms < frame->patience_ms);
 }
 
 // ---- The thread --------------------------------------------------------------------------------
 
 // A frame that was given up still teaches what it would have taken.
-static void learn(struct pel_worker *worker, const struct frame *frame, bool whole,
-                  double build_ms) {
-    double share = whole ? 1 : atomic_load(&worker->finished);
-    double ms = pel_clock_ms() - frame->begin_ms - build_ms;
-    if (share > 0.02 && ms > 0)
-        pel_pace_learn(&worker->pace, &frame->request->scenes[0]->render, &frame->quality,
-                       ms / share);
+static void learn(struct pel_worker *worker, struct frame *frame,
+                  const struct pel_picture *picture) {
+    double now_ms = pel_clock_ms();
+    double ms = picture ? now_ms - frame->begin_ms - picture->statistics.build_ms
+                        : projected_ms(frame, now_ms, atomic_load(&worker->finished));
+    if (ms > 0)
+        pel_pace_learn(&worker->pace, &frame->request->scenes[0]->render, &frame->quality, ms);
 }
 
 static void hand_over(struct pel_worker *worker, struct pel_picture *picture) {
@@ -93,13 +115,17 @@ static void hand_over(struct pel_worker *worker, struct pel_picture *picture) {
     worker->wake();
 }
 
-// Renders one quality and hands it over. False when the request is done with: it failed, or a newer
-// one came.
-static bool show(struct pel_worker *worker, const struct pel_request *request,
-                 const struct pel_quality *quality, bool quick, bool final) {
+// What became of a frame.
+enum outcome { SHOWN, LATE, OVERTAKEN, FAILED };
+
+// Renders one quality and hands it over, unless it takes longer than `limit_ms` (0: whatever).
+static enum outcome show(struct pel_worker *worker, const struct pel_request *request,
+                         const struct pel_quality *quality, double limit_ms, bool quick,
+                         bool final) {
     struct frame frame = {.worker = worker, .request = request, .quality = *quality};
     frame.begin_ms = pel_clock_ms();
     frame.patience_ms = quick ? overdue * request->target_ms : 0;
+    frame.limit_ms = limit_ms;
     atomic_store(&worker->finished, 0);
     pthread_mutex_lock(&worker->mutex);
     worker->begin_ms = frame.begin_ms;
@@ -108,28 +134,44 @@ static bool show(struct pel_worker *worker, const struct pel_request *request,
         .request = request, .quality = *quality, .batch_ms = batch_ms, .go_on = go_on, &frame};
     struct pel_crew_trouble trouble;
     struct pel_picture *picture = pel_crew_render(worker->crew, &asked, &trouble);
-    bool given_up = !picture && atomic_load(&worker->overtaken);
-    if (picture || given_up)
-        learn(worker, &frame, picture != NULL, picture ? picture->statistics.build_ms : 0);
+    bool overtaken = !picture && atomic_load(&worker->overtaken), late = atomic_load(&frame.late);
+    if (picture || overtaken || late)
+        learn(worker, &frame, picture);
     if (picture) {
         picture->final = final;
         picture->frame_ms = pel_clock_ms() - frame.begin_ms;
         hand_over(worker, picture);
-        return true;
+        return SHOWN;
     }
-    if (!given_up)
-        say(worker, trouble.sentence);
-    return false;
+    if (late || overtaken)
+        return late ? LATE : OVERTAKEN;
+    say(worker, trouble.sentence);
+    return FAILED;
+}
+
+// A quick picture. One that turns out to take far too long, because what is seen now costs more
+// than what was seen before, makes room for a worse one.
+static enum outcome show_quickly(struct pel_worker *worker, const struct pel_request *request,
+                                 struct pel_quality *quality, bool *more,
+                                 struct pel_quality *next) {
+    enum outcome outcome = LATE;
+    for (int tries = 0; outcome == LATE; tries++) {
+        const struct pel_render_settings *settings = &request->scenes[0]->render;
+        double limit_ms = tries < 3 ? too_late * request->target_ms : 0;
+        *quality = pel_pace_choose(&worker->pace, settings, request->target_ms);
+        *more = pel_pace_refine(&worker->pace, settings, quality, next);
+        outcome = show(worker, request, quality, limit_ms, true, !*more);
+    }
+    return outcome;
 }
 
 // Works on a request until it is done with: refined, failed, or only meant to be quick. False when
 // something came between.
 static bool work(struct pel_worker *worker, const struct pel_request *request) {
     const struct pel_render_settings *settings = &request->scenes[0]->render;
-    struct pel_quality quality = pel_pace_choose(&worker->pace, settings, request->target_ms);
-    struct pel_quality next;
-    bool more = pel_pace_refine(&worker->pace, settings, &quality, &next);
-    if (!show(worker, request, &quality, true, !more))
+    struct pel_quality quality, next;
+    bool more;
+    if (show_quickly(worker, request, &quality, &more, &next) != SHOWN)
         return !atomic_load(&worker->overtaken);
     while (more && !request->moving) {
         if (atomic_load(&worker->overtaken))
@@ -137,7 +179,7 @@ static bool work(struct pel_worker *worker, const struct pel_request *request) {
         quality = next;
         // Whether this is the last stage may change with what is learned; its quality tells.
         more = pel_pace_refine(&worker->pace, settings, &quality, &next);
-        if (!show(worker, request, &quality, false, !more))
+        if (show(worker, request, &quality, 0, false, !more) != SHOWN)
             return !atomic_load(&worker->overtaken);
     }
     return true;

@@ -17,25 +17,6 @@
 #include "volume/row.h"
 #include "volume/volume.h"
 
-// A volume like `source`, of other dimensions and type, whose voxels lie at scale * q + offset.
-static struct pel_volume *create_like(const struct pel_volume *source, const int dims[3],
-                                      enum pel_voxel_type type, const double scale[3],
-                                      const double offset[3]) {
-    struct pel_volume *volume = pel_volume_create(source->name, dims, type);
-    if (!volume)
-        return NULL;
-    struct pel_matrix source_from_result = pel_matrix_scaling(scale);
-    for (int axis = 0; axis < 3; axis++)
-        source_from_result.m[axis][3] = offset[axis];
-    volume->world_from_voxel = pel_matrix_multiply(&source->world_from_voxel, &source_from_result);
-    volume->slope = source->slope;
-    volume->intercept = source->intercept;
-    memcpy(volume->unit, source->unit, sizeof volume->unit);
-    memcpy(volume->space, source->space, sizeof volume->space);
-    volume->labels = source->labels;
-    return volume;
-}
-
 // ---- Resampling --------------------------------------------------------------------------------
 
 // Where a resampled index lies between two source indices: (1 - weight) * low + weight * high.
@@ -108,7 +89,7 @@ struct pel_volume *pel_volume_resample(const struct pel_volume *source, const in
         scale[axis] = (double)source->dims[axis] / dims[axis];
         offset[axis] = (scale[axis] - 1) / 2;
     }
-    struct pel_volume *result = create_like(source, dims, source->type, scale, offset);
+    struct pel_volume *result = pel_volume_create_like(source, dims, source->type, scale, offset);
     if (!result)
         return NULL;
     size_t width = (size_t)pel_row_channels(source->type) * sizeof(double);
@@ -180,6 +161,24 @@ static void pick_middles(struct pel_volume *result, const struct pel_volume *sou
     }
 }
 
+struct pel_volume *pel_volume_create_like(const struct pel_volume *source, const int dims[3],
+                                          enum pel_voxel_type type, const double scale[3],
+                                          const double offset[3]) {
+    struct pel_volume *volume = pel_volume_create(source->name, dims, type);
+    if (!volume)
+        return NULL;
+    struct pel_matrix source_from_result = pel_matrix_scaling(scale);
+    for (int axis = 0; axis < 3; axis++)
+        source_from_result.m[axis][3] = offset[axis];
+    volume->world_from_voxel = pel_matrix_multiply(&source->world_from_voxel, &source_from_result);
+    volume->slope = source->slope;
+    volume->intercept = source->intercept;
+    memcpy(volume->unit, source->unit, sizeof volume->unit);
+    memcpy(volume->space, source->space, sizeof volume->space);
+    volume->labels = source->labels;
+    return volume;
+}
+
 struct pel_volume *pel_volume_downsample(const struct pel_volume *source, int factor) {
     if (factor < 1) {
         pel_fail(PEL_ERROR_ARGUMENT, "cannot downsample by a factor of %d", factor);
@@ -194,7 +193,7 @@ struct pel_volume *pel_volume_downsample(const struct pel_volume *source, int fa
         scale[axis] = block[axis];
         offset[axis] = (scale[axis] - 1) / 2;
     }
-    struct pel_volume *result = create_like(source, dims, source->type, scale, offset);
+    struct pel_volume *result = pel_volume_create_like(source, dims, source->type, scale, offset);
     if (!result)
         return NULL;
     if (source->labels) {
@@ -225,8 +224,8 @@ struct pel_volume *pel_volume_crop(const struct pel_volume *source, const int fi
             return NULL;
         }
     }
-    struct pel_volume *result = create_like(source, dims, source->type, (double[]){1, 1, 1},
-                                            (double[]){first[0], first[1], first[2]});
+    struct pel_volume *result = pel_volume_create_like(
+        source, dims, source->type, (double[]){1, 1, 1}, (double[]){first[0], first[1], first[2]});
     if (!result)
         return NULL;
     size_t voxel_bytes = pel_voxel_bytes(source->type);

@@ -13,6 +13,12 @@
 bool pel_volume_check_size(const int64_t dims[3], enum pel_voxel_type type, size_t available_bytes,
                            size_t *bytes);
 
+// A volume like `source`, of other dimensions and type, whose voxels lie at scale * q + offset of
+// its indices. NULL: MEMORY.
+struct pel_volume *pel_volume_create_like(const struct pel_volume *source, const int dims[3],
+                                          enum pel_voxel_type type, const double scale[3],
+                                          const double offset[3]);
+
 // Replaces Inf by NaN in a float volume: both are absent.
 void pel_volume_mark_absent(struct pel_volume *volume);
 

@@ -13,14 +13,31 @@
 
 enum { PICTURE_MAX = 32768 };
 
-static const char *const render_keys[] = {"comment",        "size",           "mixing",
-                                          "step",           "step_mm",        "phase",
-                                          "termination",    "origin",         "skip",
-                                          "bricks",         "supersampling",  "jitter",
-                                          "debug",          "model",          "order",
-                                          "emission_scale", "preintegration", "quality",
-                                          "region",         "shadows",        "ambient_occlusion",
-                                          "filter",         "gradient",       NULL};
+static const char *const render_keys[] = {"comment",
+                                          "size",
+                                          "mixing",
+                                          "step",
+                                          "step_mm",
+                                          "phase",
+                                          "termination",
+                                          "origin",
+                                          "skip",
+                                          "bricks",
+                                          "supersampling",
+                                          "jitter",
+                                          "debug",
+                                          "model",
+                                          "order",
+                                          "emission_scale",
+                                          "preintegration",
+                                          "quality",
+                                          "region",
+                                          "shadows",
+                                          "ambient_occlusion",
+                                          "filter",
+                                          "gradient",
+                                          "lod",
+                                          NULL};
 static const char *const brick_keys[] = {"comment", "size", "cluster", "walk",
                                          "cull",    "pool", NULL};
 static const char *const supersampling_keys[] = {"comment", "n",        "pattern", "filter",
@@ -33,7 +50,8 @@ static const char *const skip_names[] = {"auto",   "none", "grid",   "distance",
                                          "octree", "bvh",  "blocks", NULL};
 static const char *const pool_names[] = {"auto", "off", "on", NULL};
 static const char *const debug_names[] = {"none",       "samples",   "spans", "volumes",
-                                          "work-group", "work-item", "time",  NULL};
+                                          "work-group", "work-item", "time",  "clusters",
+                                          "nodes",      NULL};
 static const char *const pattern_names[] = {"regular",        "jittered",   "n-rooks",
                                             "multi-jittered", "hammersley", NULL};
 static const char *const reconstruction_names[] = {"box", "gaussian", NULL};
@@ -185,6 +203,32 @@ static void write_bricks(struct pel_scene_writer *writer, json_t *render) {
         json_object_del(render, "bricks");
 }
 
+static const char *const lod_names[] = {"off", "auto", NULL};
+
+// A word, or the number of a level.
+static bool read_lod(struct pel_render_settings *render, const struct pel_scene_node *object) {
+    struct pel_scene_node node;
+    int which;
+    if (!pel_node_member(&node, object, "lod"))
+        return true;
+    if (json_is_number(node.value)) {
+        render->lod = PEL_LOD_LEVEL;
+        return pel_node_get_integer(object, "lod", 0, PEL_LOD_LEVEL_MAX, &render->lod_level);
+    }
+    if (!pel_node_check_name(&node, lod_names, &which))
+        return false;
+    render->lod = (enum pel_lod)which;
+    return true;
+}
+
+static void write_lod(struct pel_scene_writer *writer, json_t *object) {
+    const struct pel_render_settings *render = &writer->scene->render;
+    if (render->lod == PEL_LOD_LEVEL)
+        pel_write_number(writer, object, "lod", render->lod_level, -1);
+    else
+        pel_write_name(writer, object, "lod", lod_names, (int)render->lod, PEL_LOD_OFF);
+}
+
 static bool read_render(struct pel_render_settings *render, const struct pel_scene_node *scene) {
     struct pel_scene_node node;
     if (!pel_node_member(&node, scene, "render"))
@@ -204,7 +248,7 @@ static bool read_render(struct pel_render_settings *render, const struct pel_sce
         read_bricks(&render->bricks, &node) && read_supersampling(&render->supersampling, &node) &&
         pel_node_get_bool(&node, "jitter", &render->jitter) &&
         pel_node_get_name(&node, "debug", debug_names, &debug) &&
-        pel_scene_read_secondary(render, &node);
+        pel_scene_read_secondary(render, &node) && read_lod(render, &node);
     render->mixing = (enum pel_mixing)mixing;
     render->origin = (enum pel_sample_origin)origin;
     render->skip = (enum pel_skip)skip;
@@ -229,6 +273,7 @@ static void write_render(struct pel_scene_writer *writer, json_t *scene) {
     pel_write_bool(writer, object, "jitter", render->jitter, false);
     pel_write_name(writer, object, "debug", debug_names, render->debug, PEL_DEBUG_NONE);
     pel_scene_write_secondary(writer, object);
+    write_lod(writer, object);
 }
 
 static bool read_output_file(struct pel_output_settings *output,

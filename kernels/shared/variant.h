@@ -106,6 +106,8 @@
 #define DEBUG_WORK_GROUP 4 // which work-group made the pixel
 #define DEBUG_WORK_ITEM 5  // which work-item of its group
 #define DEBUG_TIME 6       // milliseconds of the pixel's tile, by the host's clock
+#define DEBUG_CLUSTERS 7   // leaves of a hierarchy crossed: clusters of bricks, or blocks
+#define DEBUG_NODES 8      // nodes of it crossed
 
 // What each packet counts of its rays' samples.
 #define SAMPLES_TAKEN 0

@@ -68,6 +68,13 @@ INLINE mask walk(__global const int *words, struct cursor *cursor, const struct 
     return moved & MASK(cursor->block < 0);
 }
 
+// The hierarchy of a part, or NULL where nothing is stored.
+INLINE __global const struct bvh_node *part_nodes(__constant struct part *part,
+                                                  __global const uchar *cells) {
+    const uint nodes = ((__global const struct block_grid *)cells)[part->number].nodes;
+    return nodes ? (__global const struct bvh_node *)(cells + nodes) : 0;
+}
+
 // Searches the hierarchy for the blocks that lost rays enter next, and moves them there. The lanes that rounding leaves
 // just outside of a block: they take a sample.
 INLINE mask enter_blocks(__global const struct block_grid *grid, __global const uchar *cells,
@@ -75,7 +82,7 @@ INLINE mask enter_blocks(__global const struct block_grid *grid, __global const 
                          mask lost) {
     __global const int *words = (__global const int *)(cells + grid->blocks);
     const struct leaf leaf = find_leaf((__global const struct bvh_node *)(cells + grid->nodes),
-                                       false, (int)grid->visible, cursor, TO_REAL(*i), lost);
+                                       (int)grid->visible, cursor, TO_REAL(*i), lost);
     cursor->block = CHOOSE(cursor->block, -1 - leaf.link, lost);
     const integer next = max(*i, leaf_entry(&leaf));
     const mask stays = lost & MASK(next == *i);

@@ -14,6 +14,13 @@
     ((__global const struct bvh_node *)((cells) + WORLD_PART_MAX * sizeof(int)))
 #define BVH_ROOT(cells, part) ((__global const int *)(cells))[(part)->number]
 
+// The hierarchy of a part, or NULL where nothing is visible. Links count from the part's own first node.
+INLINE __global const struct bvh_node *part_nodes(__constant struct part *part,
+                                                  __global const uchar *cells) {
+    const int root = BVH_ROOT(cells, part);
+    return root < 0 ? 0 : BVH_NODES(cells) + root;
+}
+
 // The next sample from i on that may be visible.
 INLINE integer cursor_leap(__constant struct part *part, __global const uchar *cells,
                            struct cursor *cursor, integer i) {
@@ -21,10 +28,7 @@ INLINE integer cursor_leap(__constant struct part *part, __global const uchar *c
     const mask runs = MASK(i < cursor->end), asks = runs & MASK(i >= cursor->inside);
     if (!any_lane(asks))
         return CHOOSE((integer)(SAMPLE_NEVER), i, runs);
-    // Links count from the part's own first node.
-    const int root = BVH_ROOT(cells, part);
-    const struct leaf cluster = find_leaf(BVH_NODES(cells) + max(root, 0), root < 0, 0, cursor,
-                                          TO_REAL(i), asks);
+    const struct leaf cluster = find_leaf(part_nodes(part, cells), 0, cursor, TO_REAL(i), asks);
     const integer enter = leaf_entry(&cluster);
     const integer leave = TO_INTEGER(fmin(cluster.span.far, (real)(1e9f))) + 1;
     const integer next = CHOOSE(i, max(i, enter), asks);

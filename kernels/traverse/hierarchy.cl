@@ -43,15 +43,15 @@ INLINE struct span node_span(__global const struct bvh_node *node, const struct 
     return span;
 }
 
-// Searches from sample `from` on, in the lanes that ask, below node 0 unless `empty`.
-INLINE struct leaf find_leaf(__global const struct bvh_node *nodes, bool empty, int visible,
+// Searches from sample `from` on, in the lanes that ask. `nodes` may be NULL.
+INLINE struct leaf find_leaf(__global const struct bvh_node *nodes, int visible,
                              const struct cursor *cursor, real from, mask asks) {
     struct leaf found = {{(real)(FLT_MAX), (real)(FLT_MAX)}, (integer)(-1)};
     const bool backward[3] = {FIRST_LANE(cursor->dx) < 0.0f, FIRST_LANE(cursor->dy) < 0.0f,
                               FIRST_LANE(cursor->dz) < 0.0f};
     int stack[BVH_DEPTH_MAX + 2];
     int depth = 0;
-    if (!empty)
+    if (nodes)
         stack[depth++] = 0;
     while (depth > 0) {
         const int n = stack[--depth];

@@ -56,12 +56,15 @@ for option in '--mix over' '--filter nearest' '--termination 1' '--phase 0.25' '
     '--background 0.1,0.2,0.3' '--background #102030' '--transfer viridis' '--alpha premultiplied' '--reader buffer' \
     '--shading' '--shading=off' '--shading=model=phong,ambient=0.2,shininess=30' '--lanes 4' '--lanes 1' \
     '--shading --shadows' '--shading --shadows=length=9,strength=0.5 --ambient-occlusion=directions=2,radius=4,step=3' \
-    '--shadows=off --ambient-occlusion' '--work-group 1' '--set camera.fov=20' '--quiet' \
+    '--shadows=off --ambient-occlusion' '--lod auto' '--lod 1' '--work-group 1' '--set camera.fov=20' '--quiet' \
     '--supersample 2 --supersample-pattern n-rooks --supersample-filter gaussian --seed 3 --jitter'; do
     # shellcheck disable=SC2086
     expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" $option -o option.png
 done
 
+expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" --lod 1 -o coarse.png --json
+check_json 'x["lod"]["levels"] == [1, 1] and x["lod"]["bytes"] > 0 and x["lod"]["ms"] >= 0'
+expect 2 '--set render.lod=near: must be off or auto, not "near"' render data/box.nii.gz --lod near -o none.png
 expect 2 "--shadows: 'dark' is not on, off or KEY=VALUE,..." render data/box.nii.gz --shadows=dark -o none.png
 
 # Two eyes: sizes that follow from the kind; two files; what it cost.

@@ -3,6 +3,7 @@
 #include "shared/world.h"
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scene_file.h"
 #include "support/scenes.h"
 
@@ -10,33 +11,18 @@
     "{'volumes': [{'generate': {'kind': 'head-ct', 'size': 16}, 'transfer': 'ct-bone'}],"          \
     " 'render': {'size': [24, 16], 'step': 1}, 'camera': {'view': 'left'}"
 
-static struct pel_scene *load(const char *leaf, const char *quoted) {
-    struct pel_scene *scene = pel_scene_load(test_write_scene(leaf, quoted), NULL, 0);
-    if (!scene)
-        fail_msg("%s", pel_error_message());
-    return scene;
-}
-
-static struct pel_image *render(struct pel_renderer *renderer, struct pel_scene *scene,
-                                uint64_t *uploaded_bytes) {
-    struct pel_render_statistics statistics;
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, &statistics);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
-    *uploaded_bytes = statistics.uploaded_bytes;
-    return picture;
-}
-
 static void test_stills(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
     struct pel_scene *film =
-        load("film.json", SCENE ", 'animation': {'frames': 5, 'tracks': ["
-                                "{'key': 'camera.fov', 'values': [20, 40]},"
-                                "{'key': 'volumes.0.density', 'values': [0.5, 1.5]},"
-                                "{'key': 'volumes.0.transform', 'values': ["
-                                "  {'rotate': {'axis': 'z', 'degrees': 0}},"
-                                "  {'rotate': {'axis': 'z', 'degrees': 90}}]}]}}");
+        test_load_scene("film.json",
+                        SCENE ", 'animation': {'frames': 5, 'tracks': ["
+                              "{'key': 'camera.fov', 'values': [20, 40]},"
+                              "{'key': 'volumes.0.density', 'values': [0.5, 1.5]},"
+                              "{'key': 'volumes.0.transform', 'values': ["
+                              "  {'rotate': {'axis': 'z', 'degrees': 0}},"
+                              "  {'rotate': {'axis': 'z', 'degrees': 90}}]}]}}",
+                        NULL);
     static const char *const stills[] = {
         "{'volumes': [{'generate': {'kind': 'head-ct', 'size': 16}, 'transfer': 'ct-bone',"
         "  'density': 0.75, 'transform': {'rotate': {'axis': 'z', 'degrees': 22.5}}}],"
@@ -46,11 +32,10 @@ static void test_stills(void **state) {
         " 'render': {'size': [24, 16], 'step': 1}, 'camera': {'view': 'left', 'fov': 35}}"};
     struct pel_image *first = NULL;
     for (int frame = 1; frame < 4; frame += 2) {
-        uint64_t uploaded_bytes;
-        struct pel_scene *still = load("still.json", stills[frame / 2]);
+        struct pel_scene *still = test_load_scene("still.json", stills[frame / 2], NULL);
         assert_true(pel_scene_set_frame(film, frame));
-        struct pel_image *moving = render(renderer, film, &uploaded_bytes);
-        struct pel_image *standing = render(renderer, still, &uploaded_bytes);
+        struct pel_image *moving = render_picture(renderer, film, NULL);
+        struct pel_image *standing = render_picture(renderer, still, NULL);
         assert_pictures_equal(moving, standing, "a frame and a still");
         // And the frames do differ.
         if (first)
@@ -69,14 +54,14 @@ static void test_stills(void **state) {
 static void test_uploads(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *film =
-        load("film.json", SCENE ", 'animation': {'frames': 8, 'tracks': [{'orbit': {}}]}}");
+    struct pel_scene *film = test_load_scene(
+        "film.json", SCENE ", 'animation': {'frames': 8, 'tracks': [{'orbit': {}}]}}", NULL);
     for (int frame = 0; frame < 4; frame++) {
-        uint64_t uploaded_bytes;
+        struct pel_render_statistics statistics;
         assert_true(pel_scene_set_frame(film, frame));
-        pel_image_destroy(render(renderer, film, &uploaded_bytes));
+        pel_image_destroy(render_picture(renderer, film, &statistics));
         if (frame > 0)
-            assert_int_equal(uploaded_bytes, sizeof(struct camera));
+            assert_int_equal(statistics.uploaded_bytes, sizeof(struct camera));
     }
     pel_scene_destroy(film);
     pel_renderer_destroy(renderer);

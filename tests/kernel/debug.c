@@ -117,6 +117,54 @@ static void test_what_made_a_pixel(void **state) {
     pel_renderer_destroy(renderer);
 }
 
+// 200 in a cube of 12 voxels, 0 elsewhere.
+static double cube(const double p[3], const void *user) {
+    (void)user;
+    for (int c = 0; c < 3; c++)
+        if (p[c] < 17 || p[c] > 28)
+            return 0;
+    return 200;
+}
+
+// Boxes of a hierarchy: eight bricks of 8^3 voxels make one cluster, or lie in one block. Voxel p
+// is stored at p + 1, so the cube lies in the bricks 2 and 3 along each axis.
+static void test_clusters(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, judge_packet_lanes());
+    struct pel_scene *scene = scene_create(WIDTH, HEIGHT);
+    scene_add(scene, scene_volume((int[]){62, 62, 62}, PEL_VOXEL_U8, cube, NULL),
+              scene_transfer(
+                  (const double[][5]){
+                      {0, 1, 1, 1, 0}, {100, 1, 1, 1, 0}, {150, 1, 1, 1, 0.9}, {255, 1, 1, 1, 0.9}},
+                  4));
+    scene_view_parallel(scene, 64);
+    scene->render.bricks.size = 8;
+    // A ray through the bricks, 8 mm to the left of the middle and above it; and one beside them.
+    const int through = (HEIGHT / 2 + 1) * WIDTH + WIDTH / 2 - 2, beside = 2 * WIDTH + 2;
+    struct pel_render_statistics statistics;
+    for (int apart = 0; apart < 2; apart++) {
+        scene->render.bricks.apart = apart;
+        float *clusters = show(renderer, scene, PEL_DEBUG_CLUSTERS, &statistics);
+        assert_int_equal(statistics.skip, PEL_SKIP_BVH);
+        assert_float_equal(clusters[through], apart ? 2 : 1, 0);
+        assert_float_equal(clusters[beside], 0, 0);
+        float *nodes = show(renderer, scene, PEL_DEBUG_NODES, &statistics);
+        // Of the fifteen nodes over eight bricks, by which axis is divided first.
+        assert_true(apart ? nodes[through] >= 5 && nodes[through] <= 7 : nodes[through] == 1);
+        free(clusters);
+        free(nodes);
+    }
+    scene->render.skip = PEL_SKIP_BLOCKS;
+    float *blocks = show(renderer, scene, PEL_DEBUG_CLUSTERS, &statistics);
+    assert_float_equal(blocks[through], 1, 0);
+    free(blocks);
+    scene->render.skip = PEL_SKIP_DISTANCE;
+    assert_null(pel_renderer_render(renderer, scene, NULL, NULL));
+    assert_non_null(strstr(pel_error_message(), "only skip bvh and blocks"));
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
 // What the ray of one pixel meets, against geometry, and what it brings, against the picture.
 static void test_probe(void **state) {
     (void)state;
@@ -167,8 +215,8 @@ static void test_probe(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts),
-                                       cmocka_unit_test(test_what_made_a_pixel),
-                                       cmocka_unit_test(test_probe)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_counts), cmocka_unit_test(test_what_made_a_pixel),
+        cmocka_unit_test(test_clusters), cmocka_unit_test(test_probe)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

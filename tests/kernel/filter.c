@@ -3,9 +3,9 @@
 #include <math.h>
 
 #include "base/math.h"
-#include "shared/brick.h"
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -48,19 +48,10 @@ static void test_skip(void **state) {
 // A volume in slabs is filtered and shaded like a whole one, also where it is cut.
 static void test_slabs(void **state) {
     (void)state;
-    const int dims[3] = {9, 8, 24};
-    struct pel_scene *scene = scene_create(12, 20);
-    struct pel_volume *volume = scene_volume_waves(dims, PEL_VOXEL_U8, 5, 8);
-    scene_place(volume, (double[]){2, 2, 1.2}, (double[]){0.6, 0, 0, 0.8}, (double[]){0, 0, 0},
-                false);
-    struct pel_instance *instance =
-        scene_add(scene, volume, scene_transfer_gentle((double[]){0, 255}, 0.2, 3));
-    instance->material.shading = PEL_SHADING_BLINN_PHONG;
-    instance->filter = PEL_FILTER_CUBIC_B_SPLINE;
-    struct pel_renderer_options options = {.reader = PEL_READER_BUFFER,
-                                           .max_allocation_bytes = 2 * BRICK_VOXELS};
-    struct pel_renderer *renderer = pel_renderer_create(&options);
-    assert_non_null(renderer);
+    struct pel_scene *scene = scene_tall(12, 20);
+    scene->instances[0].material.shading = PEL_SHADING_BLINN_PHONG;
+    scene->instances[0].filter = PEL_FILTER_CUBIC_B_SPLINE;
+    struct pel_renderer *renderer = render_in_slabs(0);
     pel_image_destroy(judge_render(renderer, scene, NULL, "slabs"));
     pel_renderer_destroy(renderer);
     pel_scene_destroy(scene);

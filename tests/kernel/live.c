@@ -3,6 +3,7 @@
 #include "support/judge.h"
 #include "support/near.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scene_file.h"
 #include "support/scenes.h"
 
@@ -11,25 +12,6 @@
     "'transfer': {'colours': [[0, 1, 0.4, 0.1], [1, 0.6, 0.8, 1]],"                                \
     " 'opacities': [[0.1, 0], [1, 0.5]], 'opacity_unit': 20}"
 #define VIEW "'camera': {'view': 'oblique'}, 'render': {'size': [20, 16], 'step_mm': 4}"
-
-static struct pel_scene *load(const char *quoted, const char *override) {
-    struct pel_scene *scene =
-        pel_scene_load(test_write_scene("live.json", quoted), &override, override ? 1 : 0);
-    if (!scene)
-        fail_msg("%s", pel_error_message());
-    return scene;
-}
-
-static struct pel_image *render(struct pel_renderer *renderer, struct pel_scene *scene,
-                                uint64_t *uploaded_bytes) {
-    struct pel_render_statistics statistics;
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, &statistics);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
-    if (uploaded_bytes)
-        *uploaded_bytes = statistics.uploaded_bytes;
-    return picture;
-}
 
 // With one ray and with four at a time, on a scan, beside voxels, shaded, turned and animated.
 static void test_reference(void **state) {
@@ -44,7 +26,7 @@ static void test_reference(void **state) {
         " 'camera': {'view': 'left'}, 'render': {'size': [16, 12], 'step_mm': 16}}";
     for (int lanes = 1; lanes <= 4; lanes += 3) {
         struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, lanes);
-        struct pel_scene *scene = load(scene_text, NULL);
+        struct pel_scene *scene = test_load_scene("live.json", scene_text, NULL);
         struct pel_render_statistics statistics;
         pel_image_destroy(judge_render(renderer, scene, &statistics, "live"));
         assert_true(statistics.samples > 0);
@@ -60,8 +42,8 @@ static void test_baked(void **state) {
     static const char scene_text[] = "{'volumes': [{'hypertexture': {'recipe': " RECIPE
                                      ", 'size': 8, 'type': 'float32'}," LOOK "}]," VIEW "}";
     struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 0);
-    struct pel_scene *scene = load(scene_text, NULL);
-    struct pel_image *baked = render(renderer, scene, NULL);
+    struct pel_scene *scene = test_load_scene("live.json", scene_text, NULL);
+    struct pel_image *baked = render_picture(renderer, scene, NULL);
     const struct pel_bake_options options = {.size = 8, .type = PEL_VOXEL_F32};
     struct pel_volume *volume =
         pel_renderer_bake(renderer,
@@ -71,23 +53,25 @@ static void test_baked(void **state) {
     assert_non_null(volume);
     const char *path = test_temporary_path("baked.nrrd");
     assert_true(pel_volume_save(volume, path));
-    struct pel_scene *file = load("{'volumes': [{'file': 'baked.nrrd'," LOOK "}]," VIEW "}", NULL);
-    struct pel_image *read = render(renderer, file, NULL);
+    struct pel_scene *file = test_load_scene(
+        "live.json", "{'volumes': [{'file': 'baked.nrrd'," LOOK "}]," VIEW "}", NULL);
+    struct pel_image *read = render_picture(renderer, file, NULL);
     assert_pictures_equal(baked, read, "baked in a scene, and from a file");
     pel_volume_destroy(volume);
     pel_scene_destroy(file);
     pel_image_destroy(read);
 
-    struct pel_scene *live = load(scene_text, "volumes.0.hypertexture.live=true");
+    struct pel_scene *live =
+        test_load_scene("live.json", scene_text, "volumes.0.hypertexture.live=true");
     assert_null(live->volumes[0]->voxels);
-    struct pel_image *truth = render(renderer, live, NULL);
+    struct pel_image *truth = render_picture(renderer, live, NULL);
     double before = picture_compare(baked, truth, 0).greatest;
     assert_true(before > 1);
     static const char *const sizes[] = {"volumes.0.hypertexture.size=16",
                                         "volumes.0.hypertexture.size=32"};
     for (int i = 0; i < 2; i++) {
-        struct pel_scene *finer = load(scene_text, sizes[i]);
-        struct pel_image *picture = render(renderer, finer, NULL);
+        struct pel_scene *finer = test_load_scene("live.json", scene_text, sizes[i]);
+        struct pel_image *picture = render_picture(renderer, finer, NULL);
         double now = picture_compare(picture, truth, 0).greatest;
         if (!(now < 0.6 * before))
             fail_msg("%s: off by %g of 255, after %g", sizes[i], now, before);
@@ -106,18 +90,19 @@ static void test_baked(void **state) {
 static void test_time(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 0);
-    struct pel_scene *scene =
-        load("{'volumes': [{'generate': {'kind': 'box', 'size': 40}, 'density': 0.1},"
-             " {'hypertexture': {'recipe': {'value': ['+', 'radius', 'time']}, 'live': true,"
-             "  'size': 8}," LOOK "}]," VIEW ", 'animation': {'frames': 3, 'tracks': ["
-             " {'key': 'volumes.1.hypertexture.time', 'values': [0, -1]}]}}",
-             NULL);
-    uint64_t uploaded_bytes;
-    struct pel_image *first = render(renderer, scene, &uploaded_bytes);
-    assert_true(uploaded_bytes > 40 * 40 * 40);
+    struct pel_scene *scene = test_load_scene(
+        "live.json",
+        "{'volumes': [{'generate': {'kind': 'box', 'size': 40}, 'density': 0.1},"
+        " {'hypertexture': {'recipe': {'value': ['+', 'radius', 'time']}, 'live': true,"
+        "  'size': 8}," LOOK "}]," VIEW ", 'animation': {'frames': 3, 'tracks': ["
+        " {'key': 'volumes.1.hypertexture.time', 'values': [0, -1]}]}}",
+        NULL);
+    struct pel_render_statistics statistics;
+    struct pel_image *first = render_picture(renderer, scene, &statistics);
+    assert_true(statistics.uploaded_bytes > 40 * 40 * 40);
     assert_true(pel_scene_set_frame(scene, 2));
-    struct pel_image *last = render(renderer, scene, &uploaded_bytes);
-    assert_true(uploaded_bytes <= 4096);
+    struct pel_image *last = render_picture(renderer, scene, &statistics);
+    assert_true(statistics.uploaded_bytes <= 4096);
     assert_true(picture_compare(first, last, 8).beyond_count > 8);
     pel_image_destroy(first);
     pel_image_destroy(last);

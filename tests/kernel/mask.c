@@ -5,6 +5,7 @@
 #include "support/judge.h"
 #include "support/near.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -105,6 +106,37 @@ static void test_absent(void **state) {
     pel_renderer_destroy(renderer);
 }
 
+// A recipe decides at every place anew: here a ball of 30 mm, however coarse its grid.
+static void test_recipe(void **state) {
+    (void)state;
+    const double thin[4] = {1, 0.2, 0, 0.02};
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
+    struct pel_scene *scene = scene_create(8, 8);
+    scene_view_parallel(scene, 40);
+    struct pel_volume *volume = scene_volume_constant((int[]){16, 16, 16}, PEL_VOXEL_U8, 100);
+    scene_place(volume, (double[]){6, 6, 6}, (double[]){0, 0, 0, 1}, (double[]){0, 0, 0}, false);
+    scene_add(scene, volume, scene_transfer_constant(thin));
+    struct pel_bake_options options = {.size = 4, .type = PEL_VOXEL_F32};
+    struct pel_volume *recipe = pel_volume_hypertexture("{\"value\": \"radius\"}", &options, true);
+    if (!recipe)
+        fail_msg("%s", pel_error_message());
+    scene->volumes[scene->volume_count++] = recipe;
+    scene->statistics[1] = (struct pel_statistics){.max = 1};
+    scene_add_again(scene, 1, scene_transfer_constant(thin))->hidden = true;
+    // The recipe's cube of 100 mm reaches from -1 to 1.
+    scene->instances[0].mask =
+        (struct pel_mask){.instance = 1, .range_count = 1, .ranges = {{0, 0.6}}};
+    scene->render.step = 1.0 / 12;
+    struct pel_image *picture = judge_render(renderer, scene, NULL, "recipe");
+    for (int x = 0; x < 8; x++) {
+        double across = 5 * (x - 3.5), half = sqrt(900 - across * across - 2.5 * 2.5);
+        assert_near(picture->rgba[4 * (4 * 8 + x) + 3], 1 - pow(1 - thin[3], 2 * half), 0.02);
+    }
+    pel_image_destroy(picture);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
 // Labels 0 to 3 in blocks of a few voxels.
 static double block_field(const double p_voxel[3], const void *user) {
     double size = *(const double *)user;
@@ -117,17 +149,7 @@ static double block_field(const double p_voxel[3], const void *user) {
 static struct pel_scene *scene_of_waves(double voxels_mm) {
     bool small = scene_is_small();
     struct pel_scene *scene = scene_create(small ? 12 : 32, small ? 8 : 24);
-    for (int k = 0; k < 2; k++) {
-        int dims[3] = {small ? 9 : 17, small ? 8 : 16, small ? 10 : 20};
-        struct pel_volume *volume =
-            scene_volume_waves(dims, PEL_VOXEL_U8, (uint64_t)(3 + k), small ? 7 : 13);
-        scene_place(volume, (double[]){17.0 / dims[0], 16.0 / dims[1], 18.0 / dims[2]},
-                    (double[]){0.1 * k, 0.2, -0.1, 1}, (double[]){k, -k, 0}, k);
-        struct pel_instance *instance = scene_add(
-            scene, volume, scene_transfer_gentle((double[]){0, 255}, 0.3, (uint64_t)(5 + k)));
-        instance->transform = pel_matrix_from_quaternion((double[]){0.2 - 0.3 * k, 0.1, 0.3, 1},
-                                                         (double[]){-2 + 2 * k, 1 - k, 0.5});
-    }
+    scene_add_crossing(scene);
     int side = (int)(16 / voxels_mm);
     double size = fmax(1, 4 / voxels_mm);
     struct pel_volume *blocks =
@@ -221,47 +243,38 @@ static void test_segments(void **state) {
     pel_renderer_destroy(renderer);
 }
 
-static void expect_refused(struct pel_renderer *renderer, const struct pel_scene *scene,
-                           const char *why) {
-    assert_null(pel_renderer_render(renderer, scene, NULL, NULL));
-    assert_int_equal(pel_error_code(), PEL_ERROR_ARGUMENT);
-    assert_string_equal(pel_error_message(), why);
-}
-
 static void test_refusals(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_box(volume_of_layers(PEL_VOXEL_U8, (double[]){0, 1, 2, 3}));
     struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
     struct pel_mask *mask = &scene->instances[0].mask;
     set_range(scene, 2, 1);
-    expect_refused(renderer, scene, "volume 'instance 0': a mask's range of values from 2 to 1");
+    render_refused(renderer, scene, "volume 'instance 0': a mask's range of values from 2 to 1");
     set_range(scene, 1, 2);
     mask->range_count = 33;
-    expect_refused(renderer, scene,
+    render_refused(renderer, scene,
                    "volume 'instance 0': a mask of 33 ranges of values, outside 0..32");
     mask->range_count = 1;
     mask->instance = 2;
-    expect_refused(renderer, scene, "volume 'instance 0': its mask is volume 2 of 2");
+    render_refused(renderer, scene, "volume 'instance 0': its mask is volume 2 of 2");
     mask->instance = 0;
-    expect_refused(renderer, scene, "volume 'instance 0': it is its own mask");
+    render_refused(renderer, scene, "volume 'instance 0': it is its own mask");
     mask->instance = 1;
     scene->instances[1].mask = (struct pel_mask){.range_count = 1};
-    expect_refused(renderer, scene,
+    render_refused(renderer, scene,
                    "volume 'instance 0': its mask 'instance 1' is masked by it in turn");
     scene->instances[1].mask.range_count = 0;
     scene->render.model = PEL_MODEL_EMISSION;
-    expect_refused(renderer, scene, "model emission cannot be masked");
+    render_refused(renderer, scene, "model emission cannot be masked");
     pel_renderer_destroy(renderer);
     pel_scene_destroy(scene);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_chords),
-        cmocka_unit_test(test_absent),
-        cmocka_unit_test(test_against_reference),
-        cmocka_unit_test(test_slabs_and_pool),
-        cmocka_unit_test(test_segments),
+        cmocka_unit_test(test_chords),         cmocka_unit_test(test_absent),
+        cmocka_unit_test(test_recipe),         cmocka_unit_test(test_against_reference),
+        cmocka_unit_test(test_slabs_and_pool), cmocka_unit_test(test_segments),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

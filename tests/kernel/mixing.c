@@ -1,9 +1,9 @@
 // mixing.c - every way to mix against the reference, by rays and by packets, whole and in slabs,
 // and however empty space is skipped.
 #include "base/math.h"
-#include "shared/brick.h"
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -76,9 +76,7 @@ static void test_against_reference(void **state) {
 static void test_slabs_and_skips(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_waves(true);
-    const struct pel_renderer_options options = {
-        .reader = PEL_READER_BUFFER, .lanes = 1, .max_allocation_bytes = 2 * BRICK_VOXELS};
-    struct pel_renderer *slabs = pel_renderer_create(&options);
+    struct pel_renderer *slabs = render_in_slabs(1);
     scene->render.mixing = PEL_MIX_ORDERED;
     pel_image_destroy(judge_render(slabs, scene, NULL, "ordered, slabs"));
     scene->render.mixing = PEL_MIX_INTERSECTION;

@@ -4,6 +4,7 @@
 
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -42,14 +43,6 @@ static struct pel_scene *scene_of_balls(enum pel_voxel_type type, bool shaded) {
     return scene;
 }
 
-static struct pel_image *render(struct pel_renderer *renderer, const struct pel_scene *scene,
-                                struct pel_render_statistics *statistics) {
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, statistics);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
-    return picture;
-}
-
 static void test_same_picture(void **state) {
     (void)state;
     static const struct {
@@ -69,10 +62,10 @@ static void test_same_picture(void **state) {
                 ((float *)scene->volumes[0]->voxels)[i] = NAN;
         scene->render.skip = cases[n].skip;
         scene->render.bricks.pool = PEL_POOL_OFF;
-        struct pel_image *expected = render(renderer, scene, &whole);
+        struct pel_image *expected = render_picture(renderer, scene, &whole);
         assert_int_equal(whole.bricks.resident, 0);
         scene->render.bricks.pool = PEL_POOL_ON;
-        struct pel_image *actual = render(renderer, scene, &pooled);
+        struct pel_image *actual = render_picture(renderer, scene, &pooled);
         assert_pictures_equal(actual, expected, "from the pool");
         assert_true(pooled.bricks.resident > 0);
         assert_int_equal(pooled.bricks.size, 16);
@@ -95,9 +88,9 @@ static void test_edit(void **state) {
     struct pel_render_statistics statistics;
     struct pel_opacity_point *edge = &scene->instances[0].transfer->opacities[1];
     edge->value = 100;
-    pel_image_destroy(render(renderer, scene, &statistics));
+    pel_image_destroy(render_picture(renderer, scene, &statistics));
     uint64_t few = statistics.bricks.active;
-    pel_image_destroy(render(renderer, scene, &statistics));
+    pel_image_destroy(render_picture(renderer, scene, &statistics));
     assert_true(statistics.uploaded_bytes < 9856);
 
     edge->value = 10;
@@ -124,9 +117,9 @@ static void test_too_large(void **state) {
     scene->render.skip = PEL_SKIP_BVH;
     struct pel_renderer *free_renderer = judge_renderer(PEL_READER_BUFFER, 4);
     struct pel_render_statistics statistics;
-    struct pel_image *expected = render(free_renderer, scene, &statistics);
+    struct pel_image *expected = render_picture(free_renderer, scene, &statistics);
     scene->render.bricks.pool = PEL_POOL_ON;
-    pel_image_destroy(render(free_renderer, scene, &statistics));
+    pel_image_destroy(render_picture(free_renderer, scene, &statistics));
     uint64_t needed = (statistics.bricks.active + 1) * 9856;
     pel_renderer_destroy(free_renderer);
 
@@ -135,7 +128,7 @@ static void test_too_large(void **state) {
         .reader = PEL_READER_BUFFER, .lanes = 4, .max_allocation_bytes = needed};
     struct pel_renderer *tight = pel_renderer_create(&options);
     assert_non_null(tight);
-    struct pel_image *actual = render(tight, scene, &statistics);
+    struct pel_image *actual = render_picture(tight, scene, &statistics);
     if (!scene_is_small()) {
         assert_true(statistics.bricks.resident > 0);
         assert_pictures_equal(actual, expected, "in little memory");
@@ -147,7 +140,7 @@ static void test_too_large(void **state) {
         scene->instances[0].transfer->opacities[0].opacity = 0;
         scene->instances[0].transfer->opacities[1].value = 40;
         pel_image_destroy(actual);
-        actual = render(tight, scene, &statistics);
+        actual = render_picture(tight, scene, &statistics);
         assert_pictures_equal(actual, expected, "after a failure");
     }
     pel_image_destroy(actual);

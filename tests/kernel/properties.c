@@ -5,19 +5,12 @@
 #include "shared/brick.h"
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
 // Floats, added up in another order, of 255.
 static const double ROUNDING = 255e-5;
-
-static struct pel_image *render(struct pel_renderer *renderer, const struct pel_scene *scene,
-                                struct pel_render_statistics *statistics) {
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, statistics);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
-    return picture;
-}
 
 static int small_or(int small, int otherwise) {
     return scene_is_small() ? small : otherwise;
@@ -58,9 +51,9 @@ static void test_permutation(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
     struct pel_scene *scene = scene_of_four();
-    struct pel_image *before = render(renderer, scene, NULL);
+    struct pel_image *before = render_picture(renderer, scene, NULL);
     scene_permute(scene, (int[]){2, 0, 3, 1});
-    struct pel_image *after = render(renderer, scene, NULL);
+    struct pel_image *after = render_picture(renderer, scene, NULL);
     assert_pictures_within(after, before, ROUNDING, 0, "permuted");
     pel_image_destroy(before);
     pel_image_destroy(after);
@@ -74,23 +67,23 @@ static void test_same_bytes_twice(void **state) {
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
     struct pel_renderer *other = judge_renderer(PEL_READER_AUTO, 0);
     struct pel_render_statistics statistics;
-    struct pel_image *first = render(renderer, scene, &statistics);
+    struct pel_image *first = render_picture(renderer, scene, &statistics);
     assert_true(statistics.uploaded_bytes > 0);
-    struct pel_image *second = render(renderer, scene, &statistics);
+    struct pel_image *second = render_picture(renderer, scene, &statistics);
     assert_int_equal(statistics.uploaded_bytes, 0);
-    struct pel_image *third = render(other, scene, NULL);
+    struct pel_image *third = render_picture(other, scene, NULL);
     assert_pictures_equal(second, first, "second frame");
     assert_pictures_equal(third, first, "another renderer");
 
     // A camera that moves takes a camera's bytes to the device, and back again the same picture.
     scene->camera.eye[0] += 10;
     pel_image_destroy(second);
-    second = render(renderer, scene, &statistics);
+    second = render_picture(renderer, scene, &statistics);
     assert_in_range(statistics.uploaded_bytes, 1, 4096);
     assert_true(picture_compare(second, first, 1).beyond_count > 0);
     scene->camera.eye[0] -= 10;
     pel_image_destroy(second);
-    second = render(renderer, scene, NULL);
+    second = render_picture(renderer, scene, NULL);
     assert_pictures_equal(second, first, "back again");
 
     pel_image_destroy(first);
@@ -109,7 +102,7 @@ static void test_quarters_are_the_whole(void **state) {
         struct pel_scene *scene = scene_of_four();
         if (parallel)
             scene_view_parallel(scene, 40);
-        struct pel_image *whole = render(renderer, scene, NULL);
+        struct pel_image *whole = render_picture(renderer, scene, NULL);
         int width = whole->width / 2, height = whole->height / 2;
         struct pel_image *quarter_of_whole = pel_image_create(width, height);
 
@@ -126,7 +119,7 @@ static void test_quarters_are_the_whole(void **state) {
                 memcpy(quarter_of_whole->rgba + 4 * y * width,
                        whole->rgba + 4 * ((top + y) * 2 * width + left),
                        4 * (size_t)width * sizeof(float));
-            struct pel_image *quarter = render(renderer, scene, NULL);
+            struct pel_image *quarter = render_picture(renderer, scene, NULL);
             // Rays are the same but for rounding, which may move a sample out of a span.
             assert_pictures_within(quarter, quarter_of_whole, 0.1, 2, "quarter");
             pel_image_destroy(quarter);
@@ -147,7 +140,7 @@ static void render_limited(const struct pel_scene *scene, uint64_t limit_bytes,
         struct pel_renderer *renderer = pel_renderer_create(&options);
         if (!renderer)
             fail_msg("%s", pel_error_message());
-        pictures[n] = render(renderer, scene, NULL);
+        pictures[n] = render_picture(renderer, scene, NULL);
         pel_renderer_destroy(renderer);
     }
 }
@@ -200,7 +193,7 @@ static void test_lanes_take_the_same_samples(void **state) {
     for (int n = 0; n < 2; n++) {
         struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, n ? 16 : 1);
         struct pel_render_statistics statistics;
-        pictures[n] = render(renderer, scene, &statistics);
+        pictures[n] = render_picture(renderer, scene, &statistics);
         samples[n] = statistics.samples;
         assert_int_equal(statistics.rays, pictures[n]->width * pictures[n]->height);
         assert_true(statistics.device_bytes > 0);

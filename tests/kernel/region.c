@@ -4,6 +4,7 @@
 
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -21,13 +22,6 @@ static struct pel_scene *make_scene(void) {
     return scene;
 }
 
-static struct pel_image *render(struct pel_renderer *renderer, const struct pel_scene *scene) {
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, NULL);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
-    return picture;
-}
-
 static struct pel_image *cut(const struct pel_image *whole, const int region[4]) {
     struct pel_image *part = pel_image_create(region[2], region[3]);
     for (int y = 0; y < region[3]; y++)
@@ -39,10 +33,11 @@ static struct pel_image *cut(const struct pel_image *whole, const int region[4])
 
 static void check_regions(struct pel_renderer *renderer, struct pel_scene *scene,
                           const char *title) {
-    struct pel_image *whole = render(renderer, scene);
+    struct pel_image *whole = render_picture(renderer, scene, NULL);
     for (size_t i = 0; i < sizeof regions / sizeof *regions; i++) {
         memcpy(scene->render.region, regions[i], sizeof scene->render.region);
-        struct pel_image *part = render(renderer, scene), *expected = cut(whole, regions[i]);
+        struct pel_image *part = render_picture(renderer, scene, NULL),
+                         *expected = cut(whole, regions[i]);
         assert_pictures_within(part, expected, 0, 0, title);
         pel_image_destroy(part);
         pel_image_destroy(expected);

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/math.h"
-#include "shared/brick.h"
 #include "support/judge.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -98,48 +98,32 @@ static void test_variants(void **state) {
 // A volume in slabs has the gradients of a whole one, also where it is cut.
 static void test_slabs(void **state) {
     (void)state;
-    const int dims[3] = {9, 8, 24};
-    struct pel_scene *scene = scene_create(16, 24);
-    struct pel_volume *volume = scene_volume_waves(dims, PEL_VOXEL_U8, 5, 8);
-    scene_place(volume, (double[]){2, 2, 1.2}, (double[]){0.6, 0, 0, 0.8}, (double[]){0, 0, 0},
-                false);
-    struct pel_instance *instance =
-        scene_add(scene, volume, scene_transfer_gentle((double[]){0, 255}, 0.2, 3));
-    instance->material.shading = PEL_SHADING_BLINN_PHONG;
-    struct pel_renderer_options options = {.reader = PEL_READER_BUFFER,
-                                           .max_allocation_bytes = 2 * BRICK_VOXELS};
-    struct pel_renderer *renderer = pel_renderer_create(&options);
-    assert_non_null(renderer);
+    struct pel_scene *scene = scene_tall(16, 24);
+    scene->instances[0].material.shading = PEL_SHADING_BLINN_PHONG;
+    struct pel_renderer *renderer = render_in_slabs(0);
     pel_image_destroy(judge_render(renderer, scene, NULL, "slabs"));
     pel_renderer_destroy(renderer);
     pel_scene_destroy(scene);
 }
 
-static void expect_refused(const struct pel_scene *scene, const char *why) {
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
-    assert_null(pel_renderer_render(renderer, scene, NULL, NULL));
-    assert_int_equal(pel_error_code(), PEL_ERROR_ARGUMENT);
-    if (!strstr(pel_error_message(), why))
-        fail_msg("'%s' does not say '%s'", pel_error_message(), why);
-    pel_renderer_destroy(renderer);
-}
-
 static void test_refusals(void **state) {
     (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
     struct pel_scene *scene = scene_of(1);
     scene->lights[2].direction[0] = scene->lights[2].direction[1] = 0;
     scene->lights[2].direction[2] = 0;
-    expect_refused(scene, "light 2: the direction 0 0 0 has no length");
+    render_refused(renderer, scene, "light 2: the direction 0 0 0 has no length");
     scene->lights[2].direction[2] = 1;
     scene->lights[3].intensity = -1;
-    expect_refused(scene, "light 3: colour times intensity is -0.7, outside 0..1000");
+    render_refused(renderer, scene, "light 3: colour times intensity is -0.7, outside 0..1000");
     scene->light_count = 9;
-    expect_refused(scene, "9 lights, outside 0..8");
+    render_refused(renderer, scene, "9 lights, outside 0..8");
     scene->light_count = 0;
     scene->instances[0].material.shininess = 0.5;
-    expect_refused(scene, "shininess 0.5, outside 1..1000");
+    render_refused(renderer, scene, "shininess 0.5, outside 1..1000");
     scene->instances[0].material.diffuse = NAN;
-    expect_refused(scene, "diffuse nan");
+    render_refused(renderer, scene, "diffuse nan");
+    pel_renderer_destroy(renderer);
     pel_scene_destroy(scene);
 }
 

@@ -2,6 +2,7 @@
 // change.
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -16,14 +17,6 @@ static struct pel_scene *create(enum pel_stereo_kind kind) {
     scene->background[3] = 1;
     scene->stereo.kind = kind;
     return scene;
-}
-
-static struct pel_image *render(struct pel_renderer *renderer, const struct pel_scene *scene,
-                                struct pel_render_statistics *statistics) {
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, statistics);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
-    return picture;
 }
 
 static void render_eyes(struct pel_renderer *renderer, const struct pel_scene *scene,
@@ -61,12 +54,12 @@ static void test_flat(void **state) {
     scene->stereo.flat = true;
     render_eyes(renderer, scene, NULL, eyes);
     scene->stereo.kind = PEL_STEREO_NONE;
-    struct pel_image *single = render(renderer, scene, NULL);
+    struct pel_image *single = render_picture(renderer, scene, NULL);
     assert_pictures_equal(eyes[0], single, "left");
     assert_pictures_equal(eyes[1], single, "right");
     destroy_eyes(eyes);
     scene->stereo.kind = PEL_STEREO_CHECKERBOARD;
-    struct pel_image *woven = render(renderer, scene, NULL);
+    struct pel_image *woven = render_picture(renderer, scene, NULL);
     assert_pictures_equal(woven, single, "checkerboard");
     pel_image_destroy(woven);
     pel_image_destroy(single);
@@ -138,12 +131,12 @@ static void test_statistics(void **state) {
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
     struct pel_scene *scene = create(PEL_STEREO_DUBOIS_RED_CYAN);
     struct pel_render_statistics first, again;
-    pel_image_destroy(render(renderer, scene, &first));
-    pel_image_destroy(render(renderer, scene, &again));
+    pel_image_destroy(render_picture(renderer, scene, &first));
+    pel_image_destroy(render_picture(renderer, scene, &again));
     assert_true(first.uploaded_bytes > 1024);
     assert_int_equal(again.uploaded_bytes, 0);
     scene->camera.eye[0] += 1;
-    pel_image_destroy(render(renderer, scene, &again));
+    pel_image_destroy(render_picture(renderer, scene, &again));
     assert_in_range(again.uploaded_bytes, 1, 1024);
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     assert_int_equal(again.rays, 2 * pixels);
@@ -151,12 +144,12 @@ static void test_statistics(void **state) {
     assert_true(again.stereo.eye_samples[0] > 0 && again.stereo.eye_samples[1] > 0);
     assert_true(again.stereo.separation_mm > 0 && again.stereo.convergence_mm > 0);
     scene->stereo.kind = PEL_STEREO_NONE;
-    pel_image_destroy(render(renderer, scene, &again));
+    pel_image_destroy(render_picture(renderer, scene, &again));
     assert_int_equal(again.rays, pixels);
     assert_true(again.stereo.separation_mm == 0 && again.stereo.eye_samples[1] == 0);
     // Half the rays of both eyes are half the samples, but for chance.
     scene->stereo.kind = PEL_STEREO_ROW_INTERLACED;
-    pel_image_destroy(render(renderer, scene, &again));
+    pel_image_destroy(render_picture(renderer, scene, &again));
     assert_int_equal(again.rays, pixels);
     assert_in_range(again.samples, first.samples * 9 / 20, first.samples * 11 / 20);
     pel_scene_destroy(scene);

@@ -5,6 +5,7 @@
 #include "base/math.h"
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -69,34 +70,27 @@ static void test_ways(void **state) {
     check(PEL_READER_IMAGE, 1, 2, PEL_VOXEL_RGBA8);
 }
 
-static void expect_refused(const struct pel_scene *scene, const char *why) {
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
-    assert_null(pel_renderer_render(renderer, scene, NULL, NULL));
-    assert_int_equal(pel_error_code(), PEL_ERROR_ARGUMENT);
-    if (!strstr(pel_error_message(), why))
-        fail_msg("'%s' does not say '%s'", pel_error_message(), why);
-    pel_renderer_destroy(renderer);
-}
-
 static void test_refusals(void **state) {
     (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
     struct pel_scene *scene = scene_of(0, PEL_VOXEL_U8);
     struct pel_instance *instance = &scene->instances[0];
     instance->gradient_opacity[1].gradient = 0;
-    expect_refused(scene, "must be in ascending order");
+    render_refused(renderer, scene, "must be in ascending order");
     instance->gradient_opacity[0].factor = -1;
-    expect_refused(scene, "gradient opacity of -1, outside 0..1000");
+    render_refused(renderer, scene, "gradient opacity of -1, outside 0..1000");
     instance->gradient_opacity_count = 5;
-    expect_refused(scene, "gradient opacity with 5 points, outside 0..4");
+    render_refused(renderer, scene, "gradient opacity with 5 points, outside 0..4");
     instance->gradient_opacity_count = 0;
     instance->silhouette.exponent = 0;
-    expect_refused(scene, "a silhouette of exponent 0, outside 0.25..1000");
+    render_refused(renderer, scene, "a silhouette of exponent 0, outside 0.25..1000");
     instance->silhouette.strength = NAN;
-    expect_refused(scene, "strength nan");
+    render_refused(renderer, scene, "strength nan");
     instance->gradient = (enum pel_gradient)GRADIENTS;
-    expect_refused(scene, "gradient 3");
+    render_refused(renderer, scene, "gradient 3");
     instance->filter = (enum pel_filter)9;
-    expect_refused(scene, "filter 9");
+    render_refused(renderer, scene, "filter 9");
+    pel_renderer_destroy(renderer);
     pel_scene_destroy(scene);
 }
 

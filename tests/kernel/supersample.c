@@ -5,6 +5,7 @@
 #include "base/math.h"
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -12,14 +13,6 @@
 enum { PACKET = 4 };
 
 enum { WIDTH = 20, HEIGHT = 10, EDGE_COLUMN = 12, PATTERNS = PEL_PATTERN_HAMMERSLEY + 1 };
-
-static struct pel_image *render(struct pel_renderer *renderer, const struct pel_scene *scene,
-                                struct pel_render_statistics *statistics) {
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, statistics);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
-    return picture;
-}
 
 // A white opaque box that fills the picture from the left up to `covered` of EDGE_COLUMN.
 static struct pel_scene *scene_of_edge(double covered) {
@@ -118,7 +111,7 @@ static void test_an_edge_is_its_coverage(void **state) {
         for (int pattern = 0; pattern < PATTERNS; pattern++) {
             scene->render.supersampling.n = n;
             scene->render.supersampling.pattern = (enum pel_pattern)pattern;
-            struct pel_image *picture = render(renderer, scene, NULL);
+            struct pel_image *picture = render_picture(renderer, scene, NULL);
             double most = pattern >= PEL_PATTERN_ROOKS ? 1.0 / (n * n) : 1.0 / n;
             for (int y = 0; y < HEIGHT; y++) {
                 assert_float_equal(alpha_at(picture, EDGE_COLUMN - 1, y), 1, 1e-5);
@@ -140,7 +133,7 @@ static void test_an_edge_is_its_gaussian(void **state) {
     scene->render.supersampling = (struct pel_supersampling){.n = scene_is_small() ? 4 : 8,
                                                              .pattern = PEL_PATTERN_HAMMERSLEY,
                                                              .filter = PEL_RECONSTRUCTION_GAUSSIAN};
-    struct pel_image *picture = render(renderer, scene, NULL);
+    struct pel_image *picture = render_picture(renderer, scene, NULL);
     for (int x = EDGE_COLUMN - 3; x <= EDGE_COLUMN + 3; x++) {
         double inside = 0, all = 0;
         for (double d = -1.5 + 0.0005; d < 1.5; d += 0.001) {
@@ -162,12 +155,12 @@ static void test_more_rays_converge(void **state) {
     struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, PACKET);
     struct pel_supersampling *supersampling = &scene->render.supersampling;
     *supersampling = (struct pel_supersampling){.n = 8, .pattern = PEL_PATTERN_HAMMERSLEY};
-    struct pel_image *truth = render(renderer, scene, NULL);
+    struct pel_image *truth = render_picture(renderer, scene, NULL);
     for (int pattern = 0; pattern < PATTERNS - 1; pattern++) {
         double psnr_db = 0;
         supersampling->pattern = (enum pel_pattern)pattern;
         for (supersampling->n = 1; supersampling->n <= 4; supersampling->n *= 2) {
-            struct pel_image *picture = render(renderer, scene, NULL);
+            struct pel_image *picture = render_picture(renderer, scene, NULL);
             double now_db = picture_compare(picture, truth, 1).psnr_db;
             // Four times the rays halve the error of independent ones, and do better here.
             assert_true(now_db > psnr_db + (supersampling->n > 1 ? 3 : 0));
@@ -193,10 +186,10 @@ static void test_seeds(void **state) {
         scene->render.supersampling = (struct pel_supersampling){
             .n = 2, .pattern = jitter ? PEL_PATTERN_REGULAR : (enum pel_pattern)pattern};
         scene->render.jitter = jitter;
-        struct pel_image *first = render(renderer, scene, NULL);
-        struct pel_image *again = render(renderer, scene, NULL);
+        struct pel_image *first = render_picture(renderer, scene, NULL);
+        struct pel_image *again = render_picture(renderer, scene, NULL);
         scene->render.supersampling.seed = 1;
-        struct pel_image *other = render(renderer, scene, NULL);
+        struct pel_image *other = render_picture(renderer, scene, NULL);
         assert_pictures_equal(again, first, "the same seed");
         assert_int_equal(picture_compare(other, first, 0).beyond_count == 0, fixed && !jitter);
         pel_image_destroy(first);
@@ -216,27 +209,27 @@ static void test_adaptive_counts(void **state) {
     struct pel_render_statistics statistics;
     uint64_t pixels = WIDTH * HEIGHT;
     *supersampling = (struct pel_supersampling){0};
-    struct pel_image *plain = render(renderer, scene, &statistics);
+    struct pel_image *plain = render_picture(renderer, scene, &statistics);
     assert_int_equal(statistics.rays, pixels);
     assert_float_equal(statistics.refined, 1, 0);
     uint64_t per_ray = statistics.samples / (EDGE_COLUMN * HEIGHT);
     assert_int_equal(statistics.samples, per_ray * EDGE_COLUMN * HEIGHT);
 
     supersampling->n = 4;
-    struct pel_image *full = render(renderer, scene, &statistics);
+    struct pel_image *full = render_picture(renderer, scene, &statistics);
     assert_int_equal(statistics.rays, 16 * pixels);
     // Of four columns of rays in the edge's pixels, one is covered: 1/8, but not 3/8.
     assert_int_equal(statistics.samples, per_ray * (16 * EDGE_COLUMN + 4) * HEIGHT);
 
     supersampling->adaptive = 0.5;
-    struct pel_image *some = render(renderer, scene, &statistics);
+    struct pel_image *some = render_picture(renderer, scene, &statistics);
     assert_float_equal(statistics.refined, 2.0 / WIDTH, 1e-12);
     assert_int_equal(statistics.rays, pixels + 16 * 2 * HEIGHT);
     assert_int_equal(statistics.samples, per_ray * (EDGE_COLUMN + 16 + 4) * HEIGHT);
     assert_pictures_equal(some, full, "refined at the edge");
 
     supersampling->adaptive = 1;
-    struct pel_image *none = render(renderer, scene, &statistics);
+    struct pel_image *none = render_picture(renderer, scene, &statistics);
     assert_float_equal(statistics.refined, 0, 0);
     assert_int_equal(statistics.rays, pixels);
     assert_pictures_equal(none, plain, "nothing refined");
@@ -253,11 +246,11 @@ static void test_one_centred_ray_is_plain(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_two();
     struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, PACKET);
-    struct pel_image *plain = render(renderer, scene, NULL);
+    struct pel_image *plain = render_picture(renderer, scene, NULL);
     scene->render.supersampling.n = 1;
     for (int pattern = 0; pattern < PATTERNS; pattern++) {
         scene->render.supersampling.pattern = (enum pel_pattern)pattern;
-        struct pel_image *one = render(renderer, scene, NULL);
+        struct pel_image *one = render_picture(renderer, scene, NULL);
         bool centred = pattern == PEL_PATTERN_REGULAR || pattern == PEL_PATTERN_HAMMERSLEY;
         assert_int_equal(picture_compare(one, plain, 0).beyond_count == 0, centred);
         pel_image_destroy(one);

@@ -32,6 +32,20 @@ static double spacing_along(const struct pel_matrix *matrix, int axis) {
     return pel_length((double[]){matrix->m[0][axis], matrix->m[1][axis], matrix->m[2][axis]});
 }
 
+// A recipe's values change everywhere, so near an end of a range rounding decides.
+static bool is_near_end(const struct pel_mask *mask, const struct pel_volume *volume,
+                        const double p_voxel[3]) {
+    struct reference_sample sample;
+    if (!volume->hypertexture ||
+        !reference_sample_volume(&sample, volume, PEL_FILTER_NEAREST, p_voxel))
+        return false;
+    for (int n = 0; n < mask->range_count; n++)
+        if (fabs(sample.value - mask->ranges[n].low) < 1e-4 ||
+            fabs(sample.value - mask->ranges[n].high) < 1e-4)
+            return true;
+    return false;
+}
+
 bool reference_mask_keeps(const struct pel_scene *scene, const struct pel_instance *instance,
                           const double p_world[3], double *margin_mm) {
     const struct pel_mask *mask = &instance->mask;
@@ -49,6 +63,8 @@ bool reference_mask_keeps(const struct pel_scene *scene, const struct pel_instan
     double p_voxel[3], margin = other->extent == PEL_EXTENT_CELL ? 0.5 : 0;
     pel_matrix_point(p_voxel, &voxel_from_world, p_world);
     bool here = selects(mask, volume, margin, p_voxel);
+    if (margin_mm && is_near_end(mask, volume, p_voxel))
+        *margin_mm = 0;
     // The neighbours across faces, edges and corners, and the ends of the box.
     for (int n = 1; margin_mm && n < 8; n++) {
         double across[3], farthest = 0;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/math.h"
+#include "reference/level.h"
 #include "reference/pair.h"
 #include "reference/reference.h"
 
@@ -57,8 +58,12 @@ struct reference *reference_create(const struct pel_scene *scene) {
     struct reference *reference = calloc(1, sizeof *reference);
     if (!reference)
         abort();
+    struct pel_scene *coarse = reference_coarsen(scene);
+    if (coarse)
+        scene = coarse;
     *reference = (struct reference){
         .scene = scene,
+        .coarse = coarse,
         .step_mm = INFINITY,
         .phase = NAN,
         .low = {INFINITY, INFINITY, INFINITY},
@@ -83,6 +88,7 @@ void reference_destroy(struct reference *reference) {
         reference_table_finish(&reference->bodies[k].table);
         free(reference->bodies[k].pairs);
     }
+    reference_coarsen_finish(reference->coarse);
     free(reference);
 }
 

@@ -19,6 +19,7 @@ struct reference_body {
 
 struct reference {
     const struct pel_scene *scene;
+    struct pel_scene *coarse; // owned; what `scene` is where levels of detail are shown, or NULL
     int body_count;
     struct reference_body bodies[PEL_VOLUME_MAX];
     double step_mm;

@@ -11,6 +11,14 @@ const char *test_write_scene(const char *leaf, const char *quoted) {
     return path;
 }
 
+struct pel_scene *test_load_scene(const char *leaf, const char *quoted, const char *override) {
+    struct pel_scene *scene =
+        pel_scene_load(test_write_scene(leaf, quoted), &override, override ? 1 : 0);
+    if (!scene)
+        fail_msg("%s", pel_error_message());
+    return scene;
+}
+
 int test_write_volumes(void **state) {
     (void)state;
     for (int file = 0; file < 2; file++) {

@@ -11,6 +11,9 @@
 // Writes a file into the test's folder, with " for every ', and returns its path.
 const char *test_write_scene(const char *leaf, const char *quoted);
 
+// Writes a scene like that and loads it; fails the test when it cannot be. `override` may be NULL.
+struct pel_scene *test_load_scene(const char *leaf, const char *quoted, const char *override);
+
 // A setup function for cmocka: writes a.raw, and the same as b.raw, beside the scenes.
 int test_write_volumes(void **state);
 

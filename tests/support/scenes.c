@@ -246,6 +246,31 @@ void scene_place(struct pel_volume *volume, const double spacing_mm[3], const do
     volume->world_from_voxel = pel_matrix_multiply(&pose, &scaled);
 }
 
+// ---- Scenes of waves ---------------------------------------------------------------------------
+
+struct pel_scene *scene_tall(int width, int height) {
+    struct pel_scene *scene = scene_create(width, height);
+    struct pel_volume *volume = scene_volume_waves((int[]){9, 8, 24}, PEL_VOXEL_U8, 5, 8);
+    scene_place(volume, (double[]){2, 2, 1.2}, (double[]){0.6, 0, 0, 0.8}, (double[]){0, 0, 0},
+                false);
+    scene_add(scene, volume, scene_transfer_gentle((double[]){0, 255}, 0.2, 3));
+    return scene;
+}
+
+void scene_add_crossing(struct pel_scene *scene) {
+    bool small = scene_is_small();
+    for (int k = 0; k < 2; k++) {
+        int dims[3] = {small ? 9 : 17, small ? 8 : 16, small ? 10 : 20};
+        struct pel_volume *volume =
+            scene_volume_waves(dims, PEL_VOXEL_U8, (uint64_t)(3 + k), small ? 7 : 13);
+        scene_place(volume, (double[]){17.0 / dims[0], 16.0 / dims[1], 18.0 / dims[2]},
+                    (double[]){0.1 * k, 0.2, -0.1, 1}, (double[]){k, -k, 0}, k);
+        scene_add(scene, volume, scene_transfer_gentle((double[]){0, 255}, 0.3, (uint64_t)k))
+            ->transform = pel_matrix_from_quaternion((double[]){0.2 - 0.3 * k, 0.1, 0.3, 1},
+                                                     (double[]){-2 + 2 * k, 1 - k, 0.5});
+    }
+}
+
 // ---- Transfer functions ------------------------------------------------------------------------
 
 struct pel_transfer *scene_transfer(const double (*points)[5], int count) {

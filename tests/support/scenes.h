@@ -69,6 +69,12 @@ struct pel_transfer *scene_transfer_gentle(const double range[2], double opacity
 // with gentle transfer functions. The same seed gives the same scene. `small` keeps it cheap.
 struct pel_scene *scene_random(uint64_t seed, bool small);
 
+// One volume of waves in a scene of that size, tall and thin, so that it can be cut into slabs.
+struct pel_scene *scene_tall(int width, int height);
+
+// Adds two volumes of waves across each other, each in a pose of its own.
+void scene_add_crossing(struct pel_scene *scene);
+
 // Moves everything, camera and lights included, by a rigid transform.
 void scene_move(struct pel_scene *scene, const struct pel_matrix *transform);
 

@@ -23,6 +23,13 @@ done
 DISPLAY=:$(cat display)
 export DISPLAY
 
+# A sanitizer knows that memory is the OpenGL driver's only while the driver is loaded, which it otherwise is not at the
+# end. LLVM, in OpenCL and in OpenGL, has signal stacks of its own, which AddressSanitizer would take for its.
+driver=$(find /usr/lib -name swrast_dri.so 2>/dev/null | head -1)
+if grep -q __asan_init "$PELLUCID" && [ -n "$driver" ]; then
+    export ASAN_OPTIONS=use_sigaltstack=0:verify_asan_link_order=0 LD_PRELOAD=$driver
+fi
+
 # open ARGUMENT... - starts the viewer in the background and waits for its window: $viewer is the process, $window
 # the window.
 open() {

@@ -100,6 +100,8 @@ static const struct {
      "render.ambient_occlusion.directions: must be at least 1 and at most 64, not 65"},
     {"'render': {'ambient_occlusion': {'strength': 0}}",
      "render.ambient_occlusion.strength: must be above 0 and at most 1, not 0"},
+    {"'render': {'lod': 16}", "render.lod: must be at least 0 and at most 15, not 16"},
+    {"'render': {'lod': 'far'}", "render.lod: must be off or auto, not \"far\""},
     {"'render': {'ambient_occlusion': {'radios': 3}}",
      "render.ambient_occlusion.radios: unknown key; did you mean 'radius'"},
 };

@@ -7,24 +7,20 @@ source "$SOURCE/tests/support/viewer.bash"
 
 # Every kind of stereo is one key away; then back to the one that was there, which is the 31st.
 open ct.nrrd mri.nrrd --size 160x120 --bare --screenshot window.ppm --frames 100000 || exit 1
-sleep 1
 xdotool mousemove --window "$window" 50 60 mousedown 1
 for _ in 1 2 3 4 5 6; do
     xdotool mousemove_relative -- 6 2
 done
 xdotool mouseup 1
-for _ in $(seq 31); do
-    xdotool key z
-done
+xdotool key --repeat 31 --delay 5 z
 # Turn, cut, hide one and show it, reorder, another transfer function, shading, mixing.
 xdotool key x key Tab key v key v key Prior key t key l key m key bracketright
 xdotool mousemove --window "$window" 80 60 click 4
 xdotool keydown Right sleep 0.2 keyup Right key ctrl+z key ctrl+y
-xdotool key ctrl+s key F12
-sleep 1
+saved scene.json
+xdotool key F12
+wait_for picture-001.png
 shut
-[ -e scene.json ] || complain "no scene was saved: $(cat view.err)"
-[ -e picture-001.png ] || complain "no picture was saved"
 "$PELLUCID" render scene.json -o scene.ppm || complain "the saved scene does not render"
 difference=$(differ window.ppm scene.ppm)
 [ "$difference" = sizes ] || [ "${difference:-9}" -gt 1 ] &&

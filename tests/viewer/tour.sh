@@ -2,8 +2,6 @@
 # tour.sh - a scripted tour through panels, handles, comparisons, slices, stereo, undo and files: with sanitizers it
 # must be clean, and without them it must come to its end.
 source "$SOURCE/tests/support/viewer.bash"
-# LLVM, in OpenCL and in software OpenGL, has signal stacks of its own, which AddressSanitizer would take for its.
-export ASAN_OPTIONS=use_sigaltstack=0
 cp "$SOURCE/scenes/head-pair.json" .
 cat >tour.json <<'EOF'
 {"steps": [

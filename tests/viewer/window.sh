@@ -15,18 +15,16 @@ expect 0 '' view "${small[@]}" --bare --frames 1
 
 # Real events: a drag turns, undo turns back.
 if open "${small[@]}" --bare; then
-    sleep 1
     xdotool mousemove --window "$window" 60 70 mousedown 1
     for _ in 1 2 3 4 5 6 7 8; do
         xdotool mousemove_relative -- 8 3
         sleep 0.03
     done
     xdotool mouseup 1 key F12
-    sleep 1
+    wait_for picture-001.png
     xdotool key ctrl+z key F12
-    sleep 1
+    wait_for picture-002.png
     shut
-    [ -e picture-001.png ] && [ -e picture-002.png ] || complain "F12 saved no picture"
     cmp -s picture-001.png picture-002.png && complain "undo changed nothing"
 fi
 
