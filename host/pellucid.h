@@ -660,7 +660,9 @@ struct pel_ambient_occlusion {
 };
 
 // Whether volumes are shown coarser than they are, where the picture does not show the difference
-// (docs/picture.md, "Level of detail").
+// (docs/picture.md, "Level of detail"). A renderer makes levels when they are first needed and
+// keeps them while their volumes stay in the scene; where a frame needs other levels than the one
+// before, all voxels are sent to the device anew.
 enum pel_lod {
     PEL_LOD_OFF,   // as they are
     PEL_LOD_AUTO,  // each at the level at which its voxels are about as large as a pixel
