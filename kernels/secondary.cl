@@ -173,22 +173,27 @@ INLINE real light_through(__constant struct world *world, TABLE_SPACE const uint
                           __global const uchar *cells, MEMORY_PARAMETERS, const struct ray *ray,
                           real end, float step_mm, mask asks) {
     struct obstacle obstacles[CAPACITY];
-    const int count = COUNTED(world->part_count);
+    int parts[CAPACITY], count = 0;
     integer i = (integer)(SAMPLE_NEVER), last = (integer)(0);
-    for (int p = 0; p < count; p++) {
-        begin_obstacle(&obstacles[p], world, &world->parts[p], cells, ray,
+    for (int p = 0; p < COUNTED(world->part_count); p++) {
+        struct obstacle *obstacle = &obstacles[CAPACITY == 1 ? 0 : count];
+        begin_obstacle(obstacle, world, &world->parts[p], cells, ray,
                        CHOOSE((real)(-1.0f), end, asks), step_mm);
-        i = min(i, obstacles[p].cursor.next);
-        last = max(last, obstacles[p].cursor.end);
+        const integer next = obstacle->cursor.next, behind = obstacle->cursor.end;
+        if (!any_lane(MASK(next < behind)))
+            continue;
+        parts[CAPACITY == 1 ? 0 : count++] = p;
+        i = min(i, next);
+        last = max(last, behind);
     }
     real depth = (real)(0.0f);
     mask alive = asks & MASK(i < last);
     while (any_lane(alive)) {
         struct mixture mixture = mix_begin();
         integer next = (integer)(SAMPLE_NEVER);
-        for (int p = 0; p < count; p++) {
-            __constant struct part *part = &world->parts[p];
-            struct cursor *cursor = &obstacles[p].cursor;
+        for (int n = 0; n < COUNTED(count); n++) {
+            __constant struct part *part = &world->parts[LISTED(parts, n)];
+            struct cursor *cursor = &obstacles[n].cursor;
             mask present = alive & MASK(i >= cursor->next) & MASK(i < cursor->end);
             const real t = TO_REAL(cursor_clamp(cursor, i));
 #if CLIP
@@ -196,7 +201,7 @@ INLINE real light_through(__constant struct world *world, TABLE_SPACE const uint
                 present &= clip_keeps(world, part, ray, (t + 0.5f) * step_mm);
 #endif
             if (any_lane(present))
-                depth += meet(world, table, cells, MEMORY_ARGUMENTS, &obstacles[p], part, ray, i, t,
+                depth += meet(world, table, cells, MEMORY_ARGUMENTS, &obstacles[n], part, ray, i, t,
                               present, &mixture);
             const integer own = max(cursor->next, i + 1);
             next = min(next, CHOOSE((integer)(SAMPLE_NEVER), own, MASK(own < cursor->end)));

@@ -17,7 +17,7 @@ static void draw_player(struct pel_state *state) {
     if (pel_widget_button_if(film->scene != NULL, "leave (Shift + p)"))
         pel_film_leave(state, false);
     pel_widget_same_line();
-    pel_widget_check("again and again", &film->repeats);
+    pel_widget_check("repeat", &film->repeats);
     int frame = (int)film->frame;
     if (pel_widget_slide_int("frame", &frame, 0, timeline->frame_count - 1)) {
         film->playing = false;

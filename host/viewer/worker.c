@@ -15,7 +15,7 @@
 #include "viewer/save.h"
 
 // How soon a frame in flight notices a new request.
-static const double batch_ms = 15;
+static const double batch_ms = 8;
 
 // A quick picture that takes this many times what it should gives way.
 static const double overdue = 2;

@@ -14,7 +14,7 @@ struct pel_skip_facts {
 };
 
 // Fewer voxels than these, and so little empty space is not worth a look.
-enum { PEL_SKIP_VOXELS_LEAST = 4096 };
+enum { PEL_SKIP_VOXELS_LEAST = 8192 };
 #define PEL_SKIP_VISIBLE_MOST 0.95
 
 // Finds the facts of a scene and of the world that was made of it for a reader.

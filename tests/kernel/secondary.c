@@ -53,8 +53,8 @@ static void check(struct pel_scene *scene, enum pel_reader reader, int lanes, co
     pel_scene_destroy(scene);
 }
 
-// Two volumes, one with an opacity that follows the gradient, one with absent voxels, with jitter;
-// then a clipped one that only takes away from the other, through images.
+// Two volumes, one with an opacity that follows the gradient, the other clipped and with absent
+// voxels, with jitter; then one that only takes away from the other, through images.
 static void test_media(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of(true, true);
@@ -62,19 +62,19 @@ static void test_media(void **state) {
     struct pel_instance *second = add(scene, PEL_VOXEL_F32, 1);
     for (size_t i = 0; i < pel_volume_voxel_count(scene->volumes[1]); i += 977)
         ((float *)scene->volumes[1]->voxels)[i] = NAN;
-    scene->render.jitter = true;
-    scene->render.shadows.length_mm = 19;
-    check(scene, PEL_READER_BUFFER, judge_packet_lanes(), "two in jitter");
-
-    // llvmpipe gets clips wrong where opacity follows the gradient below shadows and occlusion.
-    scene = scene_of(false, true);
-    add(scene, PEL_VOXEL_U8, 0);
-    second = add(scene, PEL_VOXEL_U8, 1);
     second->clip_count = 2;
     second->clips[0] = (struct pel_clip){
         .kind = PEL_CLIP_BOX, .outside = true, .point = {4, 2, 0}, .size = {8, 9, 10}};
     second->clips[1] =
         (struct pel_clip){.kind = PEL_CLIP_PLANE, .point = {9, 0, 0}, .normal = {-3, 1, 0}};
+    scene->render.jitter = true;
+    // llvmpipe leaves all loops of a ray after 65536 rounds of them, together.
+    scene->render.shadows.length_mm = 8;
+    check(scene, PEL_READER_BUFFER, judge_packet_lanes(), "two clipped");
+
+    scene = scene_of(false, true);
+    add(scene, PEL_VOXEL_U8, 0);
+    add(scene, PEL_VOXEL_U8, 1);
     scene->render.mixing = PEL_MIX_DIFFERENCE;
     check(scene, PEL_READER_IMAGE, 1, "difference");
 }
@@ -96,7 +96,7 @@ static void test_models(void **state) {
     check(scene, PEL_READER_BUFFER, 4, "models");
 }
 
-// Every way to skip gives the same picture.
+// Ways to skip give the same picture: none at all, by cells, and with the most to remember.
 static void test_ways(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
@@ -106,7 +106,10 @@ static void test_ways(void **state) {
     pel_transfer_destroy(instance->transfer);
     instance->transfer = scene_transfer(points, 3);
     struct pel_image *expected = NULL;
-    for (int n = 0; n < (scene_is_small() ? 2 : WAYS); n++) {
+    for (int n = 0; n < WAYS; n++) {
+        bool cells = ways[n].skip == PEL_SKIP_DISTANCE;
+        if (n > 0 && ways[n].skip != PEL_SKIP_BLOCKS && (!cells || scene_is_small()))
+            continue;
         scene->render.skip = ways[n].skip;
         struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, NULL);
         if (!picture)
@@ -138,7 +141,7 @@ static const double next_to_none = 1e-9;
 static void test_slab(void **state) {
     (void)state;
     const double points[3][5] = {{0, 1, 1, 1, 0}, {100, 1, 1, 1, 0}, {100.5, 1, 1, 1, 0.999}};
-    struct pel_scene *scene = scene_create(4, 4);
+    struct pel_scene *scene = scene_create(2, 2);
     scene_view_parallel(scene, 4);
     // The plane faces the viewer at z = -1/2 and does not shine.
     struct pel_instance *plane =
@@ -155,17 +158,18 @@ static void test_slab(void **state) {
     struct pel_volume *slab = scene_volume_constant((int[]){40, 4, 40}, PEL_VOXEL_U8, 9);
     scene_place(slab, (double[]){1, 1, 1}, (double[]){0, 0, 0, 1}, (double[]){0, 16, 12}, false);
     scene_add(scene, slab, scene_transfer_constant((double[]){1, 1, 1, 0.15}));
-    scene->render.step_mm = 0.125;
+    scene->render.step_mm = 0.5;
 
     struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
-    scene->render.shadows = (struct pel_shadows){.on = true, .strength = next_to_none};
+    scene->render.shadows =
+        (struct pel_shadows){.on = true, .step = 0.25, .strength = next_to_none};
     struct pel_image *lit = pel_renderer_render(renderer, scene, NULL, NULL);
     scene->render.shadows.strength = 1;
     struct pel_image *shadowed = pel_renderer_render(renderer, scene, NULL, NULL);
     scene->render.shadows.length_mm = 10;
     struct pel_image *near = pel_renderer_render(renderer, scene, NULL, NULL);
     assert_true(lit && shadowed && near);
-    for (int i = 0; i < 16; i++) {
+    for (int i = 0; i < 4; i++) {
         assert_float_equal(lit->rgba[4 * i], 0.6, 0.01); // the cosine
         assert_float_equal(shadowed->rgba[4 * i] / lit->rgba[4 * i], pow(0.85, 5), 0.02);
         assert_float_equal(near->rgba[4 * i], lit->rgba[4 * i], 0.01);
@@ -188,7 +192,8 @@ static double in_ball(const double p_voxel[3], const void *user) {
 static void test_convex(void **state) {
     (void)state;
     const double points[3][5] = {{0, 1, 1, 1, 0}, {100, 1, 1, 1, 0}, {101, 1, 1, 1, 0.999}};
-    struct pel_scene *scene = scene_create(8, 8);
+    struct pel_scene *scene = scene_create(5, 5);
+    scene->render.step = scene_is_small() ? 1 : 0.5;
     struct pel_instance *ball =
         scene_add(scene, scene_volume((int[]){32, 32, 32}, PEL_VOXEL_F32, in_ball, NULL),
                   scene_transfer(points, 3));

@@ -13,8 +13,8 @@ static void test_rule(void **state) {
         {{.voxels = 1 << 24, .visible = 0.3}, PEL_SKIP_DISTANCE, "30 % of the voxels"},
         {{.voxels = 1 << 24, .visible = 0.95}, PEL_SKIP_DISTANCE, "95 % of the voxels"},
         {{.voxels = 1 << 24, .visible = 0.96}, PEL_SKIP_NONE, "96 % of the voxels"},
-        {{.voxels = 4095, .visible = 0.1}, PEL_SKIP_NONE, "4095 voxels are too few"},
-        {{.voxels = 4096, .visible = 0.1}, PEL_SKIP_DISTANCE, "10 % of the voxels"},
+        {{.voxels = 8191, .visible = 0.1}, PEL_SKIP_NONE, "8191 voxels are too few"},
+        {{.voxels = 8192, .visible = 0.1}, PEL_SKIP_DISTANCE, "10 % of the voxels"},
         {{.voxels = 1 << 24, .visible = 1, .pool = true}, PEL_SKIP_BLOCKS, "only bricks"},
         {{.voxels = 1 << 24, .visible = 0.1, .nothing = true}, PEL_SKIP_NONE, "every sample"},
         {{.voxels = 1 << 24, .visible = 1, .counts = true}, PEL_SKIP_BVH, "the debug view"},
@@ -38,7 +38,7 @@ static double quarters(const double p[3], const void *user) {
 // The share of voxels that can be seen, in percent, when values above an edge are.
 static double share(enum pel_voxel_type type, double edge, void (*change)(struct pel_scene *)) {
     struct pel_scene *scene = scene_create(8, 8);
-    struct pel_volume *volume = scene_volume((int[]){20, 20, 16}, type, quarters, NULL);
+    struct pel_volume *volume = scene_volume((int[]){24, 24, 16}, type, quarters, NULL);
     scene_add(scene, volume,
               scene_transfer((const double[][5]){{edge, 1, 1, 1, 0},
                                                  {edge + 0.5, 1, 1, 1, 0.5},
