@@ -345,6 +345,9 @@ struct pel_stereo {
                            // the picture; 0 = automatic
     bool flat;             // no separation at all: both eyes see the same
     bool toe_in;           // turn the cameras inwards instead of moving their windows
+    bool reproject;      // the second eye's picture is the first one's, moved by the depth of what
+                         // it shows, and rays only where that leaves holes (docs/stereo.md); not
+                         // for interlaced kinds, which need no second picture
     bool swap;           // the left eye's picture goes where the right one's would, and vice versa
     double matrix[3][6]; // of PEL_STEREO_MATRIX: linear red, green and blue from the left eye's
                          // and the right eye's
@@ -657,7 +660,9 @@ struct pel_ambient_occlusion {
 };
 
 // Whether volumes are shown coarser than they are, where the picture does not show the difference
-// (docs/picture.md, "Level of detail").
+// (docs/picture.md, "Level of detail"). A renderer makes levels when they are first needed and
+// keeps them while their volumes stay in the scene; where a frame needs other levels than the one
+// before, all voxels are sent to the device anew.
 enum pel_lod {
     PEL_LOD_OFF,   // as they are
     PEL_LOD_AUTO,  // each at the level at which its voxels are about as large as a pixel
@@ -988,9 +993,12 @@ struct pel_render_statistics {
     // Of two eyes; all of the above is then their sum.
     struct {
         double separation_mm, convergence_mm; // as they were used
-        double eye_ms[2];                     // the whole frame of each, the first one's first
-        double compose_ms;
-        uint64_t eye_samples[2];
+        double compose_ms;                    // putting the pictures together
+        double reprojected;                   // share of the second eye's pixels that no ray was
+                                              // cast for; 0 without reprojection
+        double reproject_ms;                  // of render_ms's frame, moving them
+        uint64_t eye_samples[2];              // of the first eye, and of the second; an interlaced
+                                              // picture's are all counted as the first one's
     } stereo;
 };
 
@@ -1055,9 +1063,8 @@ PEL_API bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_
                                 int y, struct pel_probe *probe);
 PEL_API void pel_probe_finish(struct pel_probe *probe);
 
-// Renders the pictures of both eyes, each of the scene's size; the second one uploads nothing but
-// its camera. A scene without stereo gives the same picture twice. The caller owns both; on failure
-// there is neither.
+// Renders the pictures of both eyes, each of the scene's size, in one go. A scene without stereo
+// gives the same picture twice. The caller owns both; on failure there is neither.
 PEL_API bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_scene *scene,
                                       const struct pel_render_options *options,
                                       struct pel_render_statistics *statistics,

@@ -94,6 +94,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, ramps);
     *out++ = sizeof(struct world);
     *out++ = OFFSET(struct world, camera);
+    *out++ = OFFSET(struct world, second);
     *out++ = OFFSET(struct world, bounds_low);
     *out++ = OFFSET(struct world, bounds_high);
     *out++ = OFFSET(struct world, background);
@@ -117,6 +118,10 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, lamp_count);
     *out++ = OFFSET(struct world, debug);
     *out++ = OFFSET(struct world, medium_count);
+    *out++ = OFFSET(struct world, weave_x);
+    *out++ = OFFSET(struct world, weave_y);
+    *out++ = OFFSET(struct world, pictures);
+    *out++ = OFFSET(struct world, balls);
     *out++ = OFFSET(struct world, shadow_step_mm);
     *out++ = OFFSET(struct world, shadow_length_mm);
     *out++ = OFFSET(struct world, shadow_strength);

@@ -132,6 +132,23 @@ INLINE bool any_lane(mask m) {
 #endif
 }
 
+// The least of an integer over all lanes.
+INLINE int least_lane(integer v) {
+#if LANES == 1
+    return v;
+#else
+#if LANES == 16
+    const int8 eight = min(v.lo, v.hi);
+    const int4 four = min(eight.lo, eight.hi);
+#elif LANES == 8
+    const int4 four = min(v.lo, v.hi);
+#else
+    const int4 four = v;
+#endif
+    return min(min(four.x, four.y), min(four.z, four.w));
+#endif
+}
+
 // The sum of an integer over all lanes.
 INLINE int sum_lanes(integer v) {
 #if LANES == 1

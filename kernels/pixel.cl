@@ -17,13 +17,35 @@
 #define RAY_ARGUMENTS
 #endif
 
+// The index of the first pixel of an eye's picture.
+#if EYES == EYES_BOTH || EYES == EYES_DEPTH
+#define FIRST_PIXEL(world, eye) ((eye) * (world)->width * (world)->height)
+#else
+#define FIRST_PIXEL(world, eye) 0
+#endif
+
 // Premultiplied colour and opacity of each lane, accumulated front to back.
 struct light {
     real r, g, b, a;
 };
 
+// Rays through places x and y of the picture of an eye, or of both, whose packet's first pixel is (left, top).
+INLINE struct ray eye_rays(__constant struct world *world, int eye, int left, int top, real x, real y) {
+#if EYES == EYES_WOVEN
+    const struct ray first = camera_ray(world, &world->camera, x, y);
+    const struct ray second = camera_ray(world, &world->second, x, y);
+    const integer sum = (world->left + left + LANE_X) * world->weave_x +
+                        (world->top + top + LANE_Y) * world->weave_y;
+    return choose_rays(&first, &second, MASK((sum & 1) != 0));
+#elif EYES == EYES_BOTH
+    return camera_ray(world, eye ? &world->second : &world->camera, x, y);
+#else
+    return camera_ray(world, &world->camera, x, y);
+#endif
+}
+
 // The rays of the packet whose first pixel is (left, top).
-INLINE struct ray pixel_rays(__constant struct world *world, int left, int top RAY_PARAMETERS) {
+INLINE struct ray pixel_rays(__constant struct world *world, int eye, int left, int top RAY_PARAMETERS) {
     const real x = TO_REAL(world->left + left + LANE_X), y = TO_REAL(world->top + top + LANE_Y);
 #if SUPERSAMPLING || JITTER
     float xs[LANES], ys[LANES], phases[LANES], runs[LANES];
@@ -32,6 +54,15 @@ INLINE struct ray pixel_rays(__constant struct world *world, int left, int top R
 #endif
     for (int lane = 0; lane < LANES; lane++) {
         const int x_px = left + lane % PACKET_W, y_px = top + lane / PACKET_W;
+        phases[lane] = 0.0f;
+        xs[lane] = ys[lane] = 0.5f;
+#if SUPERSAMPLING
+        const bool inside = x_px < world->width && y_px < world->height;
+        const int pixel = inside ? FIRST_PIXEL(world, eye) + y_px * world->width + x_px : 0;
+        runs[lane] = inside && (all || refined[pixel]) ? 1.0f : 0.0f;
+        if (runs[lane] == 0.0f)
+            continue;
+#endif
         const uint key = pattern_key(world->seed, world->left + x_px, world->top + y_px);
 #if SUPERSAMPLING
         const uint s = number == RAY_CENTRE ? 0 : number;
@@ -39,21 +70,18 @@ INLINE struct ray pixel_rays(__constant struct world *world, int left, int top R
         const uint s = 0;
 #endif
         phases[lane] = (float)(pattern_draw(key, DRAW_PHASE + s) & 0xffffffu) * 0x1p-24f;
-        xs[lane] = ys[lane] = 0.5f;
 #if SUPERSAMPLING
         const struct pattern_place place = pattern_place(world->pattern, world->rays_n, key, s);
         xs[lane] = number == RAY_CENTRE ? 0.5f : (float)place.x * 0x1p-24f;
         ys[lane] = number == RAY_CENTRE ? 0.5f : (float)place.y * 0x1p-24f;
-        const bool inside = x_px < world->width && y_px < world->height;
-        const int pixel = inside ? y_px * world->width + x_px : 0;
-        runs[lane] = inside && (all || refined[pixel]) ? 1.0f : 0.0f;
 #endif
     }
 #define X_IN_PIXEL(lane) xs[lane]
 #define Y_IN_PIXEL(lane) ys[lane]
 #define PHASE(lane) phases[lane]
 #define RUNS(lane) runs[lane]
-    struct ray ray = camera_ray(world, x + ALL_LANES(X_IN_PIXEL), y + ALL_LANES(Y_IN_PIXEL));
+    struct ray ray =
+        eye_rays(world, eye, left, top, x + ALL_LANES(X_IN_PIXEL), y + ALL_LANES(Y_IN_PIXEL));
 #if JITTER
     ray.phase = ALL_LANES(PHASE);
 #endif
@@ -62,7 +90,7 @@ INLINE struct ray pixel_rays(__constant struct world *world, int left, int top R
 #endif
     return ray;
 #else
-    return camera_ray(world, x + 0.5f, y + 0.5f);
+    return eye_rays(world, eye, left, top, x + 0.5f, y + 0.5f);
 #endif
 }
 
@@ -76,9 +104,10 @@ INLINE uint earlier_samples(__constant struct world *world, uint counted RAY_PAR
 #endif
 }
 
-// Stores the light of the lanes that run and lie in the picture.
-INLINE void store_pixels(__constant struct world *world, __global float4 *picture, int left, int top,
-                         const struct ray *ray, const struct light *light) {
+// Stores in an eye's picture the light of the lanes that run and lie in the picture.
+INLINE void store_pixels(__constant struct world *world, __global float4 *picture, int eye, int left,
+                         int top, const struct ray *ray, const struct light *light) {
+    picture += FIRST_PIXEL(world, eye);
 #if LANES == 1
     picture[top * world->width + left] = (float4)(light->r, light->g, light->b, light->a);
 #else

@@ -13,7 +13,7 @@ __kernel void probe(__constant struct world *world, TABLE_SPACE const uint *tabl
                     __global const uchar *cells, const int x, const int y,
                     __global struct probe *probe, __global struct probe_sample *samples,
                     MEMORY_PARAMETERS) {
-    struct ray ray = camera_ray(world, x + 0.5f, y + 0.5f);
+    struct ray ray = camera_ray(world, &world->camera, x + 0.5f, y + 0.5f);
 #if JITTER
     const uint key = pattern_key(world->seed, x, y);
     ray.phase = (float)(pattern_draw(key, DRAW_PHASE) & 0xffffffu) * 0x1p-24f;

@@ -9,6 +9,9 @@
 #ifndef SUPERSAMPLING
 #define SUPERSAMPLING 0 // 1: one of several rays of each pixel
 #endif
+#ifndef EYES
+#define EYES EYES_ONE // whose rays they are: EYES_*
+#endif
 #ifndef JITTER
 #define JITTER 0 // 1: every ray has a phase of its own
 #endif
@@ -42,10 +45,10 @@ struct span {
     real near, far;
 };
 
-// The rays through the places x and y of the whole picture: pixels, from its left and top edge. Whether they run, and
-// their phases, are left to the caller.
-INLINE struct ray camera_ray(__constant struct world *world, real x, real y) {
-    __constant struct camera *camera = &world->camera;
+// The rays of a camera through the places x and y of the whole picture: pixels, from its left and top edge. Whether they
+// run, and their phases, are left to the caller.
+INLINE struct ray camera_ray(__constant struct world *world, __constant struct camera *camera, real x,
+                             real y) {
     const real u = x * (2.0f / (float)world->whole_width) - 1.0f;
     const real v = 1.0f - y * (2.0f / (float)world->whole_height);
     struct ray ray;
@@ -61,6 +64,20 @@ INLINE struct ray camera_ray(__constant struct world *world, real x, real y) {
     ray.dz *= length;
     return ray;
 }
+
+#if EYES == EYES_WOVEN
+// The rays of one camera, and where `second`, those of another.
+INLINE struct ray choose_rays(const struct ray *first, const struct ray *other, mask second) {
+    struct ray ray = *first;
+    ray.ox = CHOOSE(first->ox, other->ox, second);
+    ray.oy = CHOOSE(first->oy, other->oy, second);
+    ray.oz = CHOOSE(first->oz, other->oz, second);
+    ray.dx = CHOOSE(first->dx, other->dx, second);
+    ray.dy = CHOOSE(first->dy, other->dy, second);
+    ray.dz = CHOOSE(first->dz, other->dz, second);
+    return ray;
+}
+#endif
 
 // The same ray in the space that an affine matrix of three rows leads to; lengths along it stay
 // world millimetres.

@@ -1,10 +1,11 @@
 // render.cl - the only sampled ray loop.
 //
 // A work-item follows one packet of rays through all parts that they cross. Sample i of a ray lies at
-// t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. A ray is cut
-// into spans with a constant set of active parts; the cost of a sample follows that set. Each part has a
-// cursor; after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
+// t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. The cost of a
+// sample follows the parts that the packet is in (active.cl). Each part has a cursor; after a sample in which
+// nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
+#include "depth.cl"
 #include "mix.cl"
 #include "model.cl"
 #include "order.cl"
@@ -60,6 +61,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
     mask alive = MASK(i < last);
     struct active active;
     active.until = CAPACITY == 1 ? last : i;
+    active.count = active.joined = 0;
 
 #if MODELS
     struct gathered gathered;
@@ -76,7 +78,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         active.count = crossing->count;
 #elif CAPACITY > 1
         if (any_lane(alive & MASK(i >= active.until)))
-            begin_span(&active, crossing, i, alive);
+            join_active(world, cells, &active, crossing, i, alive);
 #endif
         bool seen = false;
         struct mixture mixture = mix_begin();
@@ -162,6 +164,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         }
 
 #if MIXING == MIXING_ORDERED
+        NOTE_DEPTH(crossing, &light, place / PLACES_PER_STEP);
         if (seen)
             alive &= MASK(light.a <= world->termination);
 #else
@@ -171,6 +174,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #if MODELS
             gathered_join(&gathered, &light);
 #endif
+            NOTE_DEPTH(crossing, &light, TO_REAL(i - 1));
             alive &= MASK(light.a <= world->termination);
         } else {
             i = CHOOSE(i, leap(&active, crossing, i), alive);
@@ -193,20 +197,22 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint packets_per_row = TILE_PX / PACKET_W;
     const uint packets_per_tile = packets_per_row * (TILE_PX / PACKET_H);
     const uint packet = get_global_id(0) % packets_per_tile;
-    const uint tile = get_global_id(0) / packets_per_tile + first_tile;
+    const uint turn = get_global_id(0) / packets_per_tile + first_tile;
+    const uint tile = EYES == EYES_BOTH ? turn / 2 : turn;
+    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
     // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that high.
     const uint band = packet / (packets_per_row * GROUP_ROWS),
                place = packet % (packets_per_row * GROUP_ROWS);
     const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;
     const int left = (int)(tile % world->tiles_x * TILE_PX + column * PACKET_W);
     const int top = (int)(tile / world->tiles_x * TILE_PX + row * PACKET_H);
-    __global uint *counts = &sample_counts[(tile * packets_per_tile + packet) * SAMPLE_COUNTS];
+    __global uint *counts = &sample_counts[(turn * packets_per_tile + packet) * SAMPLE_COUNTS];
     for (int n = 0; n < SAMPLE_COUNTS; n++)
         counts[n] = earlier_samples(world, counts[n] RAY_ARGUMENTS);
     if (left >= world->width || top >= world->height)
         return;
 
-    const struct ray ray = pixel_rays(world, left, top RAY_ARGUMENTS);
+    const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
         return;
     struct crossing crossing;
@@ -221,6 +227,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
         light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
 #endif
 
+    STORE_DEPTH(world, picture, left, top, &ray, &crossing, &light);
     const float4 behind = world->background;
     const real clear = 1.0f - light.a;
     light.r += clear * behind.x;
@@ -233,7 +240,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
 #if DEBUG
     light.r = debug_number(world, cells, &crossing, samples);
 #endif
-    store_pixels(world, picture, left, top, &ray, &light);
+    store_pixels(world, picture, eye, left, top, &ray, &light);
 }
 
 #if PROBE

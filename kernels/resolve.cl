@@ -11,13 +11,14 @@
 __kernel void refine(__constant struct world *world, __global const float4 *light, __global uchar *refined,
                      const uint first) {
     const int pixel = (int)(get_global_id(0) + first);
-    const int x = pixel % world->width, y = pixel / world->width;
-    if (y >= world->height)
+    const int x = pixel % world->width, row = pixel / world->width;
+    const int y = row % world->height, top = row - y; // in the picture of the pixel's eye
+    if (top >= world->pictures * world->height)
         return;
     float4 contrast = (float4)(0.0f);
     for (int y_near = max(y - 1, 0); y_near <= min(y + 1, world->height - 1); y_near++)
         for (int x_near = max(x - 1, 0); x_near <= min(x + 1, world->width - 1); x_near++)
-            contrast = fmax(contrast, fabs(light[y_near * world->width + x_near] - light[pixel]));
+            contrast = fmax(contrast, fabs(light[(top + y_near) * world->width + x_near] - light[pixel]));
     refined[pixel] = fmax(fmax(contrast.x, contrast.y), fmax(contrast.z, contrast.w)) > world->contrast;
 }
 
@@ -31,8 +32,9 @@ static inline float gaussian(float distance) {
 __kernel void resolve(__constant struct world *world, __global const float4 *light, __global float4 *picture,
                       __global float *weights, const uint number, const uint first) {
     const int pixel = (int)(get_global_id(0) + first);
-    const int x = pixel % world->width, y = pixel / world->width;
-    if (y >= world->height)
+    const int x = pixel % world->width, row = pixel / world->width;
+    const int y = row % world->height, top = row - y; // in the picture of the pixel's eye
+    if (top >= world->pictures * world->height)
         return;
     float4 sum = number == 0 ? (float4)(0.0f) : picture[pixel];
     float weight_sum = number == 0 ? 0.0f : weights[pixel];
@@ -48,7 +50,7 @@ __kernel void resolve(__constant struct world *world, __global const float4 *lig
                 const float weight =
                     gaussian((float)(x_near - x) + (float)place.x * 0x1p-24f - 0.5f) *
                     gaussian((float)(y_near - y) + (float)place.y * 0x1p-24f - 0.5f);
-                sum += weight * light[y_near * world->width + x_near];
+                sum += weight * light[(top + y_near) * world->width + x_near];
                 weight_sum += weight;
             }
         }

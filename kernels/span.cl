@@ -1,7 +1,4 @@
-// span.cl - which parts a packet of rays crosses, and which of them are active at a sample.
-//
-// A ray is cut into spans with a constant set of active parts, so the cost of a sample follows the parts
-// that are there and not those that are loaded.
+// span.cl - which parts a packet of rays crosses, and where its samples in each of them lie.
 #ifndef SPAN_CL
 #define SPAN_CL
 
@@ -46,6 +43,7 @@
 #ifndef CAPACITY
 #define CAPACITY 1 // parts the kernel has room for: 1, 8 or WORLD_PART_MAX
 #endif
+#include "candidates.cl"
 
 #ifndef MODELS
 #define MODELS 0 // what else than absorption, gathered front to back, occurs: MODELS_*
@@ -56,18 +54,29 @@
 #define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
 #define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
 
+// 1: a cursor looks for its first visible sample only when a ray comes to its part, which behind an opaque one it never
+// does. Views and probes show every part that has something to be seen.
+#define LATE_CURSORS (CAPACITY > 1 && MIXING != MIXING_ORDERED && !DEBUG && !PROBE)
+
 // The parts that some lane of the packet crosses, with their cursors.
 struct crossing {
     struct cursor cursors[CAPACITY];
     int parts[CAPACITY];
     int count;
+#if CAPACITY > 1
+    // The cursors in the order in which the first of the rays enters their parts, and where it does.
+    int order[CAPACITY], entries[CAPACITY];
+#endif
     integer possible; // samples of each ray, were all of them taken
     integer behind;   // of these, those behind the end of a ray that ended early
 #if SHADING || CLIP
     struct ray ray;
 #endif
-#if SHADING || PROBE || CLIP
+#if SHADING || PROBE || CLIP || EYES == EYES_DEPTH
     real t_first; // where sample 0 lies
+#endif
+#if EYES == EYES_DEPTH
+    real depth, depth_weight; // sample numbers times their weights, and the sum of these (depth.cl)
 #endif
 #if PROBE
     __global struct probe_sample *log;
@@ -125,6 +134,19 @@ INLINE real enter_instance(__constant struct world *world, const struct ray *ray
 }
 #endif
 
+#if CAPACITY > 1
+// Gives the newest cursor, c, its place in the order of entries.
+INLINE void place_in_order(struct crossing *crossing, int c, int entry) {
+    int place = c;
+    for (; place > 0 && crossing->entries[place - 1] > entry; place--) {
+        crossing->entries[place] = crossing->entries[place - 1];
+        crossing->order[place] = crossing->order[place - 1];
+    }
+    crossing->entries[place] = entry;
+    crossing->order[place] = c;
+}
+#endif
+
 // Takes the cursor of a part on from sample i, in which none of the lanes `present` there has shown anything.
 INLINE void pass_over(__constant struct part *part, __global const uchar *cells,
                       struct cursor *cursor, integer i, mask present) {
@@ -140,33 +162,31 @@ INLINE void pass_over(__constant struct part *part, __global const uchar *cells,
 INLINE void find_crossing(__constant struct world *world, __global const uchar *cells,
                           const struct ray *ray, struct crossing *crossing) {
     const struct span bounds = box_span(ray, world->bounds_low, world->bounds_high);
-    real t_near = bounds.near;
-    if (!world->origin_bounds) {
-        t_near = (real)(FLT_MAX);
-        for (int p = 0; p < world->part_count; p++) {
-            const struct ray ray_voxel = transform_ray(world->parts[p].voxel_from_world, ray);
-            const struct span span =
-                box_span(&ray_voxel, world->parts[p].box_low, world->parts[p].box_high);
-            const mask nearer = MASK(span.near < span.far) & MASK(span.near < t_near);
-            t_near = CHOOSE(t_near, span.near, nearer);
-        }
-    }
+    real t_near;
+    ulong candidates = find_candidates(world, ray, &t_near);
+    if (world->origin_bounds)
+        t_near = bounds.near;
 #if SHADING || CLIP
     crossing->ray = *ray;
 #endif
-#if SHADING || PROBE || CLIP
+#if SHADING || PROBE || CLIP || EYES == EYES_DEPTH
     crossing->t_first = fmin(t_near, 1e9f) + RAY_PHASE(world, ray) * world->step_mm;
 #endif
 #if MODELS & MODELS_BACKWARD
     const float samples_per_mm = 1.0f / world->step_mm;
     crossing->mirror = sample_at(bounds.far, t_near, RAY_PHASE(world, ray), samples_per_mm) + 1;
 #endif
+#if EYES == EYES_DEPTH
+    crossing->depth = crossing->depth_weight = (real)(0.0f);
+#endif
     crossing->count = 0;
     crossing->possible = crossing->behind = (integer)(0);
 #if MIXING == MIXING_ORDERED
     real t_own = t_near;
+    int entered = -1; // the instance's first part that t_own is of
 #endif
-    for (int p = 0; p < world->part_count && crossing->count < CAPACITY; p++) {
+    for (; candidates != 0 && crossing->count < CAPACITY; candidates &= candidates - 1) {
+        const int p = CAPACITY == 1 ? 0 : first_candidate(candidates);
         __constant struct part *part = &world->parts[p];
         const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
         struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
@@ -174,8 +194,12 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
         clip_span(world, part, ray, &span);
 #endif
 #if MIXING == MIXING_ORDERED
-        if (!world->origin_bounds && (p == 0 || part[-1].medium != part->medium))
-            t_own = enter_instance(world, ray, p);
+        int start = p;
+        while (start > 0 && world->parts[start - 1].medium == part->medium)
+            start--;
+        if (!world->origin_bounds && start != entered)
+            t_own = enter_instance(world, ray, start);
+        entered = start;
         const float step_mm = part->step_mm;
 #else
         const real t_own = t_near;
@@ -185,14 +209,19 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
 #if MODELS & MODELS_BACKWARD
         cursor_mirror(&cursor, crossing->mirror);
 #endif
-        crossing->possible += CHOOSE((integer)(0), cursor.end - cursor.first,
-                                     MASK(cursor.first < cursor.end));
+        crossing->possible +=
+            CHOOSE((integer)(0), cursor.end - cursor.first, MASK(cursor.first < cursor.end));
+#if !LATE_CURSORS
         if (any_lane(MASK(cursor.first < cursor.end)))
             cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
+#endif
         if (any_lane(MASK(cursor.next < cursor.end))) {
             const int c = CAPACITY == 1 ? 0 : crossing->count;
             crossing->cursors[c] = cursor;
             crossing->parts[c] = p;
+#if CAPACITY > 1
+            place_in_order(crossing, c, least_lane(cursor.first));
+#endif
 #if MIXING == MIXING_ORDERED
             const ray_phase phase = RAY_PHASE(world, ray);
             crossing->strides[c] = step_mm / world->step_mm;
@@ -204,39 +233,6 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     }
 }
 
-// The parts that are active in the present span of each lane, as indices into the crossing. It lasts until some
-// lane reaches the sample `until`, where its set may change.
-struct active {
-    int list[CAPACITY];
-    int count;
-    integer until;
-};
-
-#if CAPACITY > 1
-// Finds the span that begins at sample i.
-INLINE void begin_span(struct active *active, const struct crossing *crossing, integer i,
-                       mask alive) {
-    active->count = 0;
-    active->until = (integer)(SAMPLE_NEVER);
-    for (int c = 0; c < COUNTED(crossing->count); c++) {
-        const struct cursor *cursor = &crossing->cursors[c];
-        const mask before = MASK(i < cursor->first), inside = ~before & MASK(i < cursor->end);
-        const integer change = CHOOSE(cursor->end, cursor->first, before);
-        active->until = CHOOSE(active->until, min(active->until, change), before | inside);
-        if (any_lane(inside & alive))
-            active->list[active->count++] = c;
-    }
-}
-#endif
-
-// The next sample, from i on, that may show something; SAMPLE_NEVER at the end.
-INLINE integer leap(const struct active *active, const struct crossing *crossing, integer i) {
-    integer next = active->until;
-    for (int a = 0; a < COUNTED(active->count); a++) {
-        const struct cursor *cursor = &crossing->cursors[LISTED(active->list, a)];
-        next = min(next, CHOOSE((integer)(SAMPLE_NEVER), cursor->next, MASK(i < cursor->end)));
-    }
-    return max(next, i);
-}
+#include "active.cl"
 
 #endif

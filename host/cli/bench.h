@@ -155,6 +155,7 @@ int bench_add_volumes(struct bench *bench);
 int bench_add_start(struct bench *bench);
 int bench_add_workgroup(struct bench *bench);
 int bench_add_thesis(struct bench *bench);
+int bench_add_stereo(struct bench *bench);
 int bench_add_skip(struct bench *bench);
 int bench_add_scaling(struct bench *bench);
 int bench_add_changes(struct bench *bench);

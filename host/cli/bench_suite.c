@@ -65,10 +65,27 @@ struct pel_scene *bench_ball_scene(struct bench *bench, struct pel_volume *const
     return scene;
 }
 
+// Makes the first volume an opaque block, so large that the others turn within it.
+static void make_opaque(struct pel_scene *scene) {
+    static const double growth = 1.5;
+    struct pel_instance *first = &scene->instances[0];
+    struct pel_bounds bounds;
+    pel_instance_bounds(scene, 0, &bounds);
+    for (int axis = 0; axis < 3; axis++) {
+        double centre = (bounds.low[axis] + bounds.high[axis]) / 2;
+        first->transform.m[axis][axis] = growth;
+        first->transform.m[axis][3] = (1 - growth) * centre;
+    }
+    for (int i = 0; i < first->transfer->opacity_count; i++)
+        first->transfer->opacities[i].opacity = 1;
+}
+
 static bool add_balls(struct bench *bench, struct pel_volume *const *balls, int count,
-                      bool side_by_side, int baseline) {
-    struct bench_case *added =
-        bench_add(bench, "volumes", side_by_side ? "side by side" : "overlapping");
+                      bool side_by_side, bool opaque, int baseline) {
+    struct bench_case *added = bench_add(bench, "volumes",
+                                         opaque         ? "behind an opaque one"
+                                         : side_by_side ? "side by side"
+                                                        : "overlapping");
     if (!added)
         return false;
     added->width = bench->options.width ? bench->options.width : USUAL_WIDTH;
@@ -76,6 +93,8 @@ static bool add_balls(struct bench *bench, struct pel_volume *const *balls, int 
     added->volumes = count;
     added->baseline = count > 1 ? baseline : -1;
     added->scene = bench_ball_scene(bench, balls, count, side_by_side);
+    if (opaque && added->scene)
+        make_opaque(added->scene);
     return added->scene && bench_fit_camera(added->scene, added->width, added->height);
 }
 
@@ -89,9 +108,11 @@ int bench_add_volumes(struct bench *bench) {
         good = (balls[k] = bench_copy_volume(bench, balls[0])) != NULL;
     int first = bench->case_count;
     for (int count = 1; good && count <= PEL_VOLUME_MAX; count *= 2)
-        good = add_balls(bench, balls, count, false, first);
+        good = add_balls(bench, balls, count, false, false, first);
     for (int count = 2; good && count <= PEL_VOLUME_MAX; count *= 2)
-        good = add_balls(bench, balls, count, true, first);
+        good = add_balls(bench, balls, count, true, false, first);
+    for (int count = 1; good && count <= PEL_VOLUME_MAX; count *= 2)
+        good = add_balls(bench, balls, count, false, true, first + 11);
     return good ? PEL_OK : (int)PEL_ERROR_MEMORY;
 }
 

@@ -22,6 +22,7 @@ static const struct suite {
     {"volumes", "1 to 32 volumes of 64^3 voxels, overlapping and side by side", bench_add_volumes},
     {"workgroup", "sizes and shapes of work-groups, and rays per work-item", bench_add_workgroup},
     {"thesis", "what tables 6.1 to 6.11 of Romero 2009 measured", bench_add_thesis},
+    {"stereo", "what a second eye costs over one, of a fog and of a surface", bench_add_stereo},
     {"skip", "all ways to skip empty space, for several volumes and transfer functions",
      bench_add_skip},
     {"scaling", "1 to all compute units, sizes of pictures and volumes, 1 to 32 volumes",

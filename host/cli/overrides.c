@@ -84,6 +84,21 @@ bool overrides_add_pairs(struct overrides *overrides, const char *option, const 
     return good;
 }
 
+bool overrides_add_switch(struct overrides *overrides, const char *option, const char *key,
+                          const char *text) {
+    if (text && strchr(text, '=')) {
+        overrides_add(overrides, key, "{}");
+        return overrides_add_pairs(overrides, option, key, text);
+    }
+    if (text && strcmp(text, "on") != 0 && strcmp(text, "off") != 0) {
+        cli_fail(PEL_ERROR_ARGUMENT, "%s: '%s' is not on, off or KEY=VALUE,...", option, text);
+        return false;
+    }
+    bool off = text && strcmp(text, "off") == 0;
+    overrides_add(overrides, key, off ? "false" : "true");
+    return true;
+}
+
 void overrides_finish(struct overrides *overrides) {
     for (int i = 0; i < overrides->count; i++)
         free(overrides->texts[i]);

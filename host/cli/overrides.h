@@ -21,6 +21,11 @@ void overrides_add_text(struct overrides *overrides, const char *key, const char
 bool overrides_add_pairs(struct overrides *overrides, const char *option, const char *parent,
                          const char *text);
 
+// Appends a key that is true, false or an object, from "on", "off", pairs as above, or NULL for on.
+// False, with a message about `option`, for anything else.
+bool overrides_add_switch(struct overrides *overrides, const char *option, const char *key,
+                          const char *text);
+
 void overrides_finish(struct overrides *overrides);
 
 #endif

@@ -45,6 +45,7 @@ enum {
     KEY_STEREO_CONVERGENCE,
     KEY_STEREO_SWAP,
     KEY_STEREO_TOE_IN,
+    KEY_STEREO_REPROJECT,
     KEY_TRANSFER,
     KEY_READER,
     KEY_LANES,
@@ -98,6 +99,8 @@ static const struct argp_option argp_options[] = {
     {"stereo-swap", KEY_STEREO_SWAP, NULL, 0, "Exchange the eyes", 0},
     {"stereo-toe-in", KEY_STEREO_TOE_IN, NULL, 0,
      "Turn the cameras inwards instead of shifting their windows", 0},
+    {"stereo-reproject", KEY_STEREO_REPROJECT, NULL, 0,
+     "Make the second eye's picture from the first one's: faster, not exact (--json says both)", 0},
     {0, 0, NULL, 0, "The volumes, all of them:", 3},
     {"transfer", KEY_TRANSFER, "PRESET|FILE", 0, "Transfer function", 0},
     {"density", KEY_DENSITY, "X", 0, "Multiplies the extinction", 0},
@@ -255,22 +258,6 @@ static bool add_camera(struct render_options *options, const char *text) {
     return true;
 }
 
-// A key that is true, false or an object.
-static bool add_switch(struct render_options *options, const char *option, const char *key,
-                       const char *text) {
-    if (text && strchr(text, '=')) {
-        overrides_add(&options->overrides, key, "{}");
-        return overrides_add_pairs(&options->overrides, option, key, text);
-    }
-    if (text && strcmp(text, "on") != 0 && strcmp(text, "off") != 0) {
-        cli_fail(PEL_ERROR_ARGUMENT, "%s: '%s' is not on, off or KEY=VALUE,...", option, text);
-        return false;
-    }
-    bool off = text && strcmp(text, "off") == 0;
-    overrides_add(&options->overrides, key, off ? "false" : "true");
-    return true;
-}
-
 static bool add_set(struct render_options *options, const char *text) {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text) {
@@ -301,6 +288,9 @@ static error_t parse_stereo_key(int key, const char *argument, struct render_opt
         break;
     case KEY_STEREO_TOE_IN:
         overrides_add(&options->overrides, "stereo.toe_in", "true");
+        break;
+    case KEY_STEREO_REPROJECT:
+        overrides_add(&options->overrides, "stereo.reproject", "true");
         break;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -391,16 +381,18 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
         good = add_number(options, "--density", "volumes.*.density", argument);
         break;
     case KEY_SHADING:
-        good = add_switch(options, "--shading", "volumes.*.shading", argument);
+        good =
+            overrides_add_switch(&options->overrides, "--shading", "volumes.*.shading", argument);
         break;
     case KEY_LOD:
         overrides_add(&options->overrides, "render.lod", argument);
         break;
     case KEY_SHADOWS:
-        good = add_switch(options, "--shadows", "render.shadows", argument);
+        good = overrides_add_switch(&options->overrides, "--shadows", "render.shadows", argument);
         break;
     case KEY_AMBIENT_OCCLUSION:
-        good = add_switch(options, "--ambient-occlusion", "render.ambient_occlusion", argument);
+        good = overrides_add_switch(&options->overrides, "--ambient-occlusion",
+                                    "render.ambient_occlusion", argument);
         break;
     case KEY_BACKGROUND:
         add_background(options, argument);

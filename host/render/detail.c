@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "render/settings.h"
 #include "volume/level.h"
 #include "world/detail.h"
 
@@ -73,12 +74,13 @@ static bool replace(struct pel_detail *detail, const struct pel_scene *scene,
 
 bool pel_detail_show(struct pel_detail *detail, struct pel_scene *shown) {
     memset(&detail->statistics, 0, sizeof detail->statistics);
-    if (!pel_detail_check(&shown->render))
-        return false;
     if (shown->render.lod == PEL_LOD_OFF) {
         pel_detail_finish(detail);
         return true;
     }
+    // A level follows the camera and the picture's size, which nobody has looked at yet.
+    if (!pel_settings_check(shown))
+        return false;
     double start_ms = pel_clock_ms();
     struct pel_scene *scene = pel_allocate(1, sizeof *scene);
     if (!scene)

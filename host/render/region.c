@@ -44,9 +44,11 @@ struct pel_image *pel_region_cut(struct pel_image *image, const struct pel_rende
     const int *from = widened->region, *to = settings->region;
     if (!image || memcmp(from, to, sizeof settings->region) == 0)
         return image;
-    struct pel_image *part = pel_image_create(to[2], to[3]);
-    for (int y = 0; part && y < to[3]; y++) {
-        size_t first = (size_t)(y + to[1] - from[1]) * (size_t)from[2] + (size_t)(to[0] - from[0]);
+    int planes = image->height / from[3]; // pictures above each other
+    struct pel_image *part = pel_image_create(to[2], planes * to[3]);
+    for (int y = 0; part && y < part->height; y++) {
+        int row = y / to[3] * from[3] + y % to[3] + to[1] - from[1];
+        size_t first = (size_t)row * (size_t)from[2] + (size_t)(to[0] - from[0]);
         memcpy(&part->rgba[4 * (size_t)y * (size_t)to[2]], &image->rgba[4 * first],
                4 * sizeof *part->rgba * (size_t)to[2]);
     }

@@ -10,8 +10,8 @@ bool pel_region_check(const struct pel_render_settings *settings);
 // Makes the region as much larger as its pixels look at their neighbours.
 void pel_region_widen(struct pel_render_settings *settings);
 
-// Takes a picture of the widened region and returns that of the region alone. NULL: MEMORY, or for
-// NULL.
+// Takes a picture, or several above each other, of the widened region and returns that of the
+// region alone. NULL: MEMORY, or for NULL.
 struct pel_image *pel_region_cut(struct pel_image *image, const struct pel_render_settings *widened,
                                  const struct pel_render_settings *settings);
 

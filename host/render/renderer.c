@@ -2,6 +2,7 @@
 //
 // A frame is: plan where voxels lie, make the world's bytes, send what changed, choose the kernel,
 // and run it over the tiles in short batches. What is on the device stays for the next frame.
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,18 +22,18 @@
 #include "render/residency.h"
 #include "render/resolve.h"
 #include "render/target.h"
+#include "render/tiles.h"
 #include "render/settings.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
 #include "world/skip.h"
-
-static const double batch_default_ms = 150; // of a batch of tiles, unless the caller says otherwise
 
 struct pel_renderer {
     struct pel_device *device;
     struct pel_renderer_options options;
     struct pel_residency residency;
     struct pel_kernel_cache kernels;
+    struct pel_memo memo;
     struct pel_mirror world, tables;
     struct pel_occupancy occupancy;
     struct pel_resolve resolve;
@@ -41,8 +42,7 @@ struct pel_renderer {
     struct pel_target target;
     struct pel_buffer *sample_counts;
     size_t sample_counts_bytes;
-    double tiles_per_ms; // as the last frame ran; 0 = unknown
-    float *tile_ms;      // what each tile takes, while a debug view asks for it
+    struct pel_pace pace;
 };
 
 // Time since *mark, which moves to now.
@@ -67,27 +67,11 @@ static bool grow_buffer(struct pel_buffer **buffer, size_t *have, size_t bytes,
 
 // ---- One frame ---------------------------------------------------------------------------------
 
-// How a picture's tiles are handed out. A work-group may span several tiles, so launches are
-// rounded up to whole groups; the tiles beyond the picture's end do nothing.
-struct extent {
-    size_t tiles, packets_per_tile, group, tiles_per_group;
-};
-
-static struct extent picture_extent(const struct pel_render_settings *settings, int lanes,
-                                    size_t group) {
-    size_t tiles_x = ((size_t)settings->width + TILE_PX - 1) / TILE_PX;
-    size_t tiles_y = ((size_t)settings->height + TILE_PX - 1) / TILE_PX;
-    size_t packets = TILE_PX * TILE_PX / (size_t)lanes;
-    return (struct extent){tiles_x * tiles_y, packets, group,
-                           group > packets ? group / packets : 1};
+// Pixels of all pictures of a frame.
+static size_t count_pixels(const struct pel_world *world) {
+    return (size_t)world->bytes.width * (size_t)world->bytes.height *
+           (size_t)pel_world_pictures(world);
 }
-
-static size_t round_up(size_t value, size_t multiple) {
-    return (value + multiple - 1) / multiple * multiple;
-}
-
-// Where the kernel finds what changes from launch to launch.
-enum { LIGHT_ARGUMENT = 2, FIRST_TILE_ARGUMENT = 4, RAY_ARGUMENT = 6 };
 
 // Binds everything but where light goes, the first tile, and the ray's number, in the order of the
 // kernel's parameters. A kernel has an atlas for each class in `voxels` only.
@@ -96,8 +80,8 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
     int index = 0;
     bool good = pel_kernel_set_buffer(kernel, index++, renderer->world.buffer) &&
                 pel_kernel_set_buffer(kernel, index++, renderer->tables.buffer) &&
-                pel_kernel_set_buffer(kernel, LIGHT_ARGUMENT + 1, renderer->sample_counts);
-    index = FIRST_TILE_ARGUMENT + 1; // what is between is set for each frame and each batch
+                pel_kernel_set_buffer(kernel, PEL_LIGHT_ARGUMENT + 1, renderer->sample_counts);
+    index = PEL_FIRST_TILE_ARGUMENT + 1; // what is between is set for each frame and each batch
     good = good && pel_kernel_set_buffer(kernel, index++, pel_occupancy_map(&renderer->occupancy));
     if (variant->supersampling) {
         index++; // the ray's number is set for each pass
@@ -106,101 +90,55 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
     return good && pel_residency_bind(&renderer->residency, kernel, index, variant->voxels);
 }
 
-// Runs the kernel over `count` tiles from `first` on and waits for it.
-static bool run_batch(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                      const struct extent *extent, size_t first, size_t count) {
-    size_t items = round_up(count, extent->tiles_per_group) * extent->packets_per_tile;
-    return pel_kernel_set_u32(kernel, FIRST_TILE_ARGUMENT, (uint32_t)first) &&
-           pel_kernel_launch(kernel, items, extent->group) && pel_device_finish(renderer->device);
-}
-
-// Which of how many times the kernel runs over the tiles.
-struct pass {
-    int number, count;
-};
-
-// Runs the kernel over all tiles, in batches.
-static bool run_tiles(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                      const struct extent *extent, const struct pel_render_options *options,
-                      struct pass pass) {
-    enum { FIRST_BATCH = 64 };
-    double start = pel_clock_ms(), mark = start;
-    double batch_ms = options && options->batch_ms > 0 ? options->batch_ms : batch_default_ms;
-    // The frame before may have had cheaper tiles, so the first batch only looks how these are.
-    double batch = renderer->tiles_per_ms > 0 ? renderer->tiles_per_ms * batch_ms / 4 : FIRST_BATCH;
-    for (size_t tile = 0; tile < extent->tiles;) {
-        size_t left = extent->tiles - tile;
-        size_t count = batch < 1 ? 1 : batch < (double)left ? (size_t)batch : left;
-        if (renderer->tile_ms)
-            count = 1;
-        count = round_up(count, extent->tiles_per_group);
-        if (count > left)
-            count = left;
-        // A first launch warms up what it needs, and should not count.
-        if (renderer->tile_ms && tile == 0 && !run_batch(renderer, kernel, extent, 0, count))
-            return false;
-        double begin_ms = pel_clock_ms();
-        if (!run_batch(renderer, kernel, extent, tile, count))
-            return false;
-        for (size_t i = 0; renderer->tile_ms && i < count; i++)
-            renderer->tile_ms[tile + i] = (float)((pel_clock_ms() - begin_ms) / (double)count);
-        tile += count;
-        double finished = pass.number + (double)tile / (double)extent->tiles;
-        if (options && options->progress &&
-            !options->progress(finished / pass.count, options->user))
-            return pel_fail(PEL_ERROR_ARGUMENT, "the frame was abandoned");
-        // The next batch aims at the set time, but one measurement makes it grow fourfold at most.
-        double per_ms = (double)count / fmax(lap_ms(&mark), 0.05);
-        batch = fmin(per_ms * batch_ms, 4.0 * (double)count);
-    }
-    renderer->tiles_per_ms = (double)extent->tiles / fmax(pel_clock_ms() - start, 0.05);
-    return true;
-}
-
 // Runs the kernel for one ray of each pixel after the other, and adds them up.
 static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                     const struct pel_scene *scene, const struct extent *extent,
-                     const struct pel_render_options *options,
+                     const struct pel_scene *scene, const struct pel_world *world,
+                     const struct pel_tiling *tiling, const struct pel_render_options *options,
                      struct pel_render_statistics *statistics) {
     const struct pel_supersampling *supersampling = &scene->render.supersampling;
-    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
+    size_t pixels = count_pixels(world);
     bool adaptive = (float)supersampling->adaptive > 0; // as the kernels read it
     int n = supersampling->n > 1 ? supersampling->n : 1;
-    struct pass pass = {0, n * n + adaptive};
+    struct pel_pass pass = {0, n * n + adaptive};
     double slowest = INFINITY; // tiles per millisecond
     statistics->rays = pixels * (uint64_t)(n * n);
     if (adaptive) {
         uint64_t refined;
-        if (!pel_kernel_set_u32(kernel, RAY_ARGUMENT, RAY_CENTRE) ||
-            !run_tiles(renderer, kernel, extent, options, pass) ||
+        if (!pel_kernel_set_u32(kernel, PEL_RAY_ARGUMENT, RAY_CENTRE) ||
+            !pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options, pass) ||
             !pel_resolve_refine(&renderer->resolve, renderer->world.buffer, pixels, &refined))
             return false;
         statistics->rays = pixels + refined * (uint64_t)(n * n);
         statistics->refined = (double)refined / (double)pixels;
-        slowest = renderer->tiles_per_ms;
+        slowest = renderer->pace.tiles_per_ms;
         pass.number++;
     }
     for (int ray = 0; ray < n * n; ray++, pass.number++) {
-        if (!pel_kernel_set_u32(kernel, RAY_ARGUMENT, (uint32_t)ray) ||
-            !run_tiles(renderer, kernel, extent, options, pass) ||
+        if (!pel_kernel_set_u32(kernel, PEL_RAY_ARGUMENT, (uint32_t)ray) ||
+            !pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options, pass) ||
             !pel_resolve_add(&renderer->resolve, renderer->world.buffer, renderer->target.buffer,
                              pixels, ray))
             return false;
-        slowest = fmin(slowest, renderer->tiles_per_ms);
+        slowest = fmin(slowest, renderer->pace.tiles_per_ms);
     }
     // The next frame may begin with all pixels where this one ended with few.
-    renderer->tiles_per_ms = slowest;
+    renderer->pace.tiles_per_ms = slowest;
     return pel_device_finish(renderer->device);
 }
 
 // Adds up what the packets have counted.
-static void count_samples(struct pel_renderer *renderer, size_t packets,
+static void count_samples(struct pel_renderer *renderer, const struct pel_world *world,
+                          const struct pel_tiling *tiling,
                           struct pel_render_statistics *statistics) {
+    size_t packets = tiling->tiles * tiling->packets_per_tile;
+    size_t pictures = (size_t)pel_world_pictures(world);
     uint32_t(*counts)[SAMPLE_COUNTS] = pel_allocate(packets, sizeof *counts);
     uint64_t possible = 0;
     if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts)) {
         for (size_t i = 0; i < packets; i++) {
             statistics->samples += counts[i][SAMPLES_TAKEN];
+            statistics->stereo.eye_samples[i / tiling->packets_per_tile % pictures] +=
+                counts[i][SAMPLES_TAKEN];
             statistics->samples_terminated += counts[i][SAMPLES_BEHIND];
             possible += counts[i][SAMPLES_POSSIBLE];
         }
@@ -225,7 +163,8 @@ static size_t choose_group(const struct pel_renderer *renderer, const struct pel
 // Sends what changed and gives back the kernel, ready to run; NULL on failure.
 static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pel_scene *scene,
                                   const struct pel_layout *layout, const struct pel_world *world,
-                                  struct extent *extent, struct pel_render_statistics *statistics) {
+                                  struct pel_tiling *tiling,
+                                  struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
     struct pel_device *device = renderer->device;
     int lanes = statistics->lanes;
@@ -239,17 +178,18 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         return NULL;
     statistics->build_ms = lap_ms(&mark);
 
-    *extent = picture_extent(&scene->render, lanes, choose_group(renderer, kernel));
-    size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
-    size_t packets = (extent->tiles + extent->tiles_per_group) * extent->packets_per_tile;
+    *tiling = pel_tiles_plan(&scene->render, pel_world_pictures(world), lanes,
+                             choose_group(renderer, kernel));
+    size_t packets = (tiling->tiles + tiling->tiles_per_group) * tiling->packets_per_tile;
     if (!pel_residency_update(&renderer->residency, scene, layout, world) ||
         !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
-                           sizeof world->bytes.camera, "the scene", NULL) ||
+                           (world->eyes == EYES_ONE ? 1 : 2) * sizeof world->bytes.camera,
+                           "the scene", NULL) ||
         !pel_mirror_update(&renderer->tables, device, world->tables,
                            world->table_words * sizeof *world->tables, 0, "transfer functions",
                            NULL) ||
         (world->supersampling &&
-         !pel_resolve_prepare(&renderer->resolve, device, kernel, pixels)) ||
+         !pel_resolve_prepare(&renderer->resolve, device, kernel, count_pixels(world))) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
                      packets * SAMPLE_COUNTS * sizeof(u32), device, "sample counts"))
         return NULL;
@@ -266,26 +206,52 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
                                  pel_buffer_bytes(renderer->residency.ranges);
         statistics->bricks = pel_occupancy_bricks(&renderer->occupancy);
     }
-    statistics->work_group = (int)extent->group;
+    statistics->work_group = (int)tiling->group;
     statistics->kernel = pel_kernel_describe(kernel);
     return kernel;
 }
 
+// Runs the kernel for one ray of each of some pixels.
+static bool run_only(struct pel_renderer *renderer, struct pel_kernel *kernel,
+                     const struct pel_world *world, const struct pel_tiling *tiling,
+                     const uint8_t *only, const struct pel_render_options *options,
+                     struct pel_render_statistics *statistics) {
+    size_t pixels = count_pixels(world), packets = tiling->tiles * tiling->packets_per_tile;
+    // The kernel takes this for a later ray of each pixel, and goes on counting.
+    uint32_t *zeros = pel_allocate(packets * SAMPLE_COUNTS, sizeof *zeros);
+    bool good = zeros &&
+                pel_buffer_write(renderer->sample_counts, 0,
+                                 packets * SAMPLE_COUNTS * sizeof *zeros, zeros) &&
+                pel_buffer_write(renderer->resolve.refined, 0, pixels, only) &&
+                pel_kernel_set_u32(kernel, PEL_RAY_ARGUMENT, 0) &&
+                pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options,
+                              (struct pel_pass){0, 1});
+    free(zeros);
+    statistics->rays = 0;
+    for (size_t i = 0; i < pixels; i++)
+        statistics->rays += only[i] != 0;
+    return good;
+}
+
 // Runs the kernel as often as a picture needs.
 static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                       const struct pel_scene *scene, const struct extent *extent,
-                       bool supersampling, const struct pel_render_options *options,
+                       const struct pel_scene *scene, const struct pel_world *world,
+                       const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
+                       const struct pel_render_options *options,
                        struct pel_render_statistics *statistics) {
-    statistics->rays = (uint64_t)scene->render.width * (uint64_t)scene->render.height;
+    statistics->rays = count_pixels(world);
     statistics->refined = 1;
-    if (supersampling)
-        return run_rays(renderer, kernel, scene, extent, options, statistics);
+    if (eyes->only)
+        return run_only(renderer, kernel, world, tiling, eyes->only, options, statistics);
+    if (world->supersampling)
+        return run_rays(renderer, kernel, scene, world, tiling, options, statistics);
     if (scene->render.debug == PEL_DEBUG_TIME) {
-        renderer->tile_ms = pel_allocate(extent->tiles, sizeof *renderer->tile_ms);
-        if (!renderer->tile_ms)
+        renderer->pace.tile_ms = pel_allocate(tiling->tiles, sizeof *renderer->pace.tile_ms);
+        if (!renderer->pace.tile_ms)
             return false;
     }
-    return run_tiles(renderer, kernel, extent, options, (struct pass){0, 1});
+    return pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options,
+                         (struct pel_pass){0, 1});
 }
 
 // Makes a debug view's picture of what came from the device.
@@ -293,57 +259,63 @@ static bool paint(struct pel_image *image, const struct pel_renderer *renderer, 
                   const struct pel_render_options *options,
                   struct pel_render_statistics *statistics) {
     size_t tiles_x = ((size_t)image->width + TILE_PX - 1) / TILE_PX;
-    for (int y = 0; renderer->tile_ms && y < image->height; y++)
+    for (int y = 0; renderer->pace.tile_ms && y < image->height; y++)
         for (int x = 0; x < image->width; x++)
             image->rgba[4 * ((size_t)y * (size_t)image->width + (size_t)x)] =
-                renderer->tile_ms[(size_t)(y / TILE_PX) * tiles_x + (size_t)(x / TILE_PX)];
+                renderer->pace.tile_ms[(size_t)(y / TILE_PX) * tiles_x + (size_t)(x / TILE_PX)];
     return pel_debug_paint(image, view, options ? options->numbers : NULL, &statistics->debug);
 }
 
 // Runs the kernel and brings the picture here. The caller owns it.
 static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                             const struct pel_scene *scene, const struct extent *extent,
-                             bool supersampling, const struct pel_render_options *options,
+                             const struct pel_scene *scene, const struct pel_world *world,
+                             const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
+                             const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
-    struct pel_image *image = pel_image_create(scene->render.width, scene->render.height);
+    struct pel_image *image =
+        pel_image_create(scene->render.width, pel_world_planes(world) * scene->render.height);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
         return NULL;
     }
-    struct pel_buffer *light = supersampling ? renderer->resolve.light : renderer->target.buffer;
-    bool good = pel_kernel_set_buffer(kernel, LIGHT_ARGUMENT, light) &&
-                run_passes(renderer, kernel, scene, extent, supersampling, options, statistics);
+    bool adds_up = world->supersampling && !eyes->only;
+    struct pel_buffer *light = adds_up ? renderer->resolve.light : renderer->target.buffer;
+    bool good = pel_kernel_set_buffer(kernel, PEL_LIGHT_ARGUMENT, light) &&
+                run_passes(renderer, kernel, scene, world, eyes, tiling, options, statistics);
     statistics->render_ms = lap_ms(&mark);
     good = pel_target_end(&renderer->target, image, good) &&
            (scene->render.debug == PEL_DEBUG_NONE ||
             paint(image, renderer, scene->render.debug, options, statistics));
-    free(renderer->tile_ms);
-    renderer->tile_ms = NULL;
+    free(renderer->pace.tile_ms);
+    renderer->pace.tile_ms = NULL;
     if (!good) {
         pel_image_destroy(image);
         return NULL;
     }
-    count_samples(renderer, extent->tiles * extent->packets_per_tile, statistics);
+    count_samples(renderer, world, tiling, statistics);
     statistics->download_ms = lap_ms(&mark);
     return image;
 }
 
 // The picture of nothing: the background.
 static struct pel_image *render_background(const struct pel_world *world) {
-    struct pel_image *image = pel_image_create(world->bytes.width, world->bytes.height);
+    struct pel_image *image =
+        pel_image_create(world->bytes.width, pel_world_planes(world) * world->bytes.height);
     if (!image)
         return NULL;
-    size_t pixels = (size_t)image->width * (size_t)image->height;
+    size_t pixels = count_pixels(world);
     for (size_t i = 0; i < pixels; i++)
         memcpy(&image->rgba[4 * i], &world->bytes.background, sizeof world->bytes.background);
+    for (size_t i = pixels; i < (size_t)image->width * (size_t)image->height; i++)
+        image->rgba[4 * i] = FLT_MAX;
     return image;
 }
 
 // Plans where the voxels lie and makes the world's bytes, which go by that. Zeroes the statistics.
 static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
-                 struct pel_layout *layout, struct pel_world *world,
-                 struct pel_render_statistics *statistics) {
+                 const struct pel_frame_eyes *eyes, struct pel_layout *layout,
+                 struct pel_world *world, struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
     const struct pel_device_info *info = pel_device_describe(renderer->device);
     *statistics = (struct pel_render_statistics){0};
@@ -352,11 +324,18 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     struct pel_layout_limits limits =
         pel_residency_limits(renderer->device, renderer->options.max_allocation_bytes);
     if (!pel_layout_plan(layout, scene, &limits, renderer->options.reader, info->reader) ||
-        !pel_world_build(world, scene, layout))
+        !pel_world_build(world, scene, layout, &renderer->memo))
         return false;
-    size_t pixels = (size_t)world->bytes.width * (size_t)world->bytes.height;
-    size_t pixel_bytes = sizeof(float4) + (world->supersampling ? PEL_RESOLVE_BYTES : 0);
-    if (!pel_residency_check(layout, &limits, pixels * pixel_bytes)) {
+    if (eyes->eyes == EYES_DEPTH)
+        world->eyes = EYES_DEPTH;
+    if (eyes->only) { // pixels with contrast, of which there are no others
+        world->supersampling = true;
+        world->bytes.contrast = 1;
+    }
+    size_t pixel_bytes = (size_t)pel_world_planes(world) * sizeof(float4) +
+                         (world->supersampling ? PEL_RESOLVE_BYTES : 0);
+    if ((eyes->second && !pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave)) ||
+        !pel_residency_check(layout, &limits, count_pixels(world) * pixel_bytes)) {
         pel_world_finish(world);
         return false;
     }
@@ -374,6 +353,7 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
 }
 
 struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                   const struct pel_frame_eyes *eyes,
                                    const struct pel_render_options *options,
                                    struct pel_render_statistics *statistics) {
     struct pel_render_statistics unwanted;
@@ -388,7 +368,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
         !pel_detail_show(&renderer->detail, &shown))
         return NULL;
     pel_region_widen(&shown.render);
-    if (!plan(renderer, &shown, &layout, &world, statistics))
+    if (!plan(renderer, &shown, eyes, &layout, &world, statistics))
         return NULL;
     // What follows knows only the part of the picture that is made.
     shown.render.width = world.bytes.width;
@@ -397,11 +377,10 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     if (world.bytes.part_count == 0) {
         image = render_background(&world);
     } else {
-        struct extent extent;
-        struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &extent, statistics);
+        struct pel_tiling tiling;
+        struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &tiling, statistics);
         if (kernel)
-            image =
-                run(renderer, kernel, &shown, &extent, world.supersampling, options, statistics);
+            image = run(renderer, kernel, &shown, &world, eyes, &tiling, options, statistics);
     }
     pel_world_finish(&world);
     const struct pel_device_info *info = pel_device_describe(renderer->device);
@@ -431,14 +410,14 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
     struct pel_render_statistics statistics;
     struct pel_layout layout;
     struct pel_world world;
-    if (!plan(renderer, &seen, &layout, &world, &statistics))
+    if (!plan(renderer, &seen, &(struct pel_frame_eyes){0}, &layout, &world, &statistics))
         return false;
     statistics.lanes = 1;
     world.probe = true;
-    struct extent extent;
+    struct pel_tiling tiling;
     struct pel_kernel *kernel = NULL;
     bool good = world.bytes.part_count == 0 ||
-                (kernel = prepare(renderer, &seen, &layout, &world, &extent, &statistics)) != NULL;
+                (kernel = prepare(renderer, &seen, &layout, &world, &tiling, &statistics)) != NULL;
     const struct pel_probe_inputs inputs = {
         .device = renderer->device,
         .render = kernel,
@@ -481,6 +460,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     if (!renderer)
         return;
     pel_residency_finish(&renderer->residency);
+    pel_memo_finish(&renderer->memo);
     pel_mirror_finish(&renderer->world);
     pel_mirror_finish(&renderer->tables);
     pel_occupancy_finish(&renderer->occupancy);

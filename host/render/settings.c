@@ -7,6 +7,7 @@
 #include "shared/variant.h"
 #include "world/bricks.h"
 #include "world/clip.h"
+#include "world/detail.h"
 #include "world/mask.h"
 #include "world/model.h"
 #include "world/step.h"
@@ -54,7 +55,8 @@ bool pel_settings_check(const struct pel_scene *scene) {
             return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': priority %g, must be finite",
                             scene->instances[k].name, scene->instances[k].priority);
     return pel_model_check(scene) && pel_clip_check(scene) && pel_mask_check(scene) &&
-           pel_bricks_check(&settings->bricks) && check_supersampling(&settings->supersampling);
+           pel_detail_check(settings) && pel_bricks_check(&settings->bricks) &&
+           check_supersampling(&settings->supersampling);
 }
 
 bool pel_settings_check_options(const struct pel_renderer_options *options) {

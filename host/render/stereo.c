@@ -1,7 +1,32 @@
-// stereo.c - the pictures of two eyes: two frames of one renderer, of scenes that differ in the
-// camera only, so that nothing else travels to the device for the second one.
+// stereo.c - the pictures of two eyes, in one launch.
+//
+// The kernel takes tiles of either eye in turns, so that the second one finds the voxels in the
+// caches, and everything but a camera is prepared and sent once. Of an interlaced picture it
+// follows only the rays that are shown: a packet then has rays of both eyes.
+#include <stdlib.h>
+#include <string.h>
 
+#include "base/error.h"
+#include "base/memory.h"
 #include "render/frame.h"
+#include "render/reproject.h"
+
+static bool is_debug(const struct pel_scene *scene) {
+    return scene->render.debug != PEL_DEBUG_NONE;
+}
+
+// Which pixels of an interlaced picture are the second eye's: odd rows, columns, or both. False
+// for other kinds, and where a pixel's light depends on its neighbours in the same eye's picture.
+static bool find_weave(const struct pel_scene *scene, int weave[2]) {
+    const struct pel_supersampling *supersampling = &scene->render.supersampling;
+    weave[0] = scene->stereo.kind != PEL_STEREO_ROW_INTERLACED;
+    weave[1] = scene->stereo.kind != PEL_STEREO_COLUMN_INTERLACED;
+    return (scene->stereo.kind == PEL_STEREO_ROW_INTERLACED ||
+            scene->stereo.kind == PEL_STEREO_COLUMN_INTERLACED ||
+            scene->stereo.kind == PEL_STEREO_CHECKERBOARD) &&
+           !is_debug(scene) && !(supersampling->adaptive > 0) &&
+           supersampling->filter == PEL_RECONSTRUCTION_BOX;
+}
 
 // Progress of one eye, as a part of both.
 struct part {
@@ -16,7 +41,7 @@ static bool report_part(double finished, void *user) {
 
 // What is counted or timed adds up; what was chosen is that of the last eye.
 static void add_statistics(struct pel_render_statistics *sum,
-                           const struct pel_render_statistics *eye) {
+                           const struct pel_render_statistics *eye, int i) {
     struct pel_render_statistics both = *eye;
     both.samples += sum->samples;
     both.samples_skipped += sum->samples_skipped;
@@ -30,7 +55,161 @@ static void add_statistics(struct pel_render_statistics *sum,
     both.render_ms += sum->render_ms;
     both.download_ms += sum->download_ms;
     both.stereo = sum->stereo;
+    both.stereo.eye_samples[i] = eye->samples;
     *sum = both;
+}
+
+// A debug view's numbers are those of a launch of its own, with a range of its own: so each eye
+// has its frame there.
+static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_scene *seen,
+                                      const struct pel_camera *second,
+                                      const struct pel_render_options *options,
+                                      struct pel_render_statistics *statistics) {
+    int width = seen->render.width, height = seen->render.height;
+    struct pel_image *both = NULL;
+    *statistics = (struct pel_render_statistics){0};
+    for (int i = 0; i < 2; i++) {
+        struct part part = {options, i / 2.0};
+        struct pel_render_options of_eye = options ? *options : (struct pel_render_options){0};
+        if (of_eye.progress) {
+            of_eye.progress = report_part;
+            of_eye.user = &part;
+        }
+        struct pel_render_statistics of_frame;
+        struct pel_image *eye =
+            pel_frame_render(renderer, seen, &(struct pel_frame_eyes){0}, &of_eye, &of_frame);
+        if (eye && !both)
+            both = pel_image_create(width, 2 * height);
+        if (!eye || !both) {
+            pel_image_destroy(eye);
+            pel_image_destroy(both);
+            return NULL;
+        }
+        size_t floats = (size_t)width * (size_t)height * 4;
+        memcpy(both->rgba + (size_t)i * floats, eye->rgba, floats * sizeof *eye->rgba);
+        pel_image_destroy(eye);
+        add_statistics(statistics, &of_frame, i);
+        seen->camera = *second;
+    }
+    return both;
+}
+
+// Reprojection moves colours along rows, from one ray of each pixel.
+static bool check_reproject(const struct pel_scene *scene) {
+    const struct pel_supersampling *supersampling = &scene->render.supersampling;
+    if (scene->stereo.toe_in || scene->camera.orthographic)
+        return pel_fail(PEL_ERROR_UNSUPPORTED,
+                        "stereo.reproject needs parallel cameras of perspective, not %s",
+                        scene->camera.orthographic ? "an orthographic view" : "toe_in");
+    if (supersampling->n > 1)
+        return pel_fail(PEL_ERROR_UNSUPPORTED,
+                        "stereo.reproject goes with one ray a pixel, not with %d x %d",
+                        supersampling->n, supersampling->n);
+    if (supersampling->pattern != PEL_PATTERN_REGULAR ||
+        supersampling->filter != PEL_RECONSTRUCTION_BOX)
+        return pel_fail(PEL_ERROR_UNSUPPORTED,
+                        "stereo.reproject goes with rays through the middles of pixels only");
+    return true;
+}
+
+// Renders the pixels of the second eye that the first one's picture does not tell.
+static bool fill_holes(struct pel_renderer *renderer, const struct pel_scene *seen,
+                       const uint8_t *holes, struct pel_image *second,
+                       const struct pel_render_options *options,
+                       struct pel_render_statistics *statistics) {
+    struct pel_render_statistics of_holes;
+    struct pel_image *cast = pel_frame_render(
+        renderer, seen, &(struct pel_frame_eyes){.only = holes}, options, &of_holes);
+    if (!cast)
+        return false;
+    size_t pixels = (size_t)second->width * (size_t)second->height;
+    for (size_t i = 0; i < pixels; i++)
+        if (holes[i])
+            memcpy(&second->rgba[4 * i], &cast->rgba[4 * i], 4 * sizeof *cast->rgba);
+    pel_image_destroy(cast);
+    add_statistics(statistics, &of_holes, 1);
+    return true;
+}
+
+// Puts the second eye's picture in the place of the depth below the first one's.
+static bool make_second(struct pel_renderer *renderer, struct pel_scene *seen,
+                        const struct pel_camera cameras[2], struct pel_image *both,
+                        const struct pel_render_options *options,
+                        struct pel_render_statistics *statistics) {
+    int width = both->width, height = both->height / 2;
+    size_t pixels = (size_t)width * (size_t)height, hole_count = 0;
+    float *depth = pel_allocate(pixels, sizeof *depth);
+    uint8_t *holes = pel_allocate(pixels, sizeof *holes);
+    bool good = depth && holes;
+    double begin_ms = pel_clock_ms();
+    const struct pel_image first = {width, height, both->rgba};
+    struct pel_image second = {width, height, both->rgba + 4 * pixels};
+    for (size_t i = 0; good && i < pixels; i++)
+        depth[i] = second.rgba[4 * i];
+    if (good) {
+        const struct pel_parallax parallax =
+            pel_parallax_between(cameras, seen->render.width, seen->render.height);
+        pel_depth_from_distance(depth, &cameras[0], &seen->render);
+        good = pel_reproject(&second, holes, &first, depth, &parallax);
+    }
+    for (size_t i = 0; good && i < pixels; i++)
+        hole_count += holes[i];
+    statistics->stereo.reproject_ms = pel_clock_ms() - begin_ms;
+    statistics->stereo.reprojected = 1 - (double)hole_count / (double)pixels;
+    seen->camera = cameras[1];
+    good = good &&
+           (hole_count == 0 || fill_holes(renderer, seen, holes, &second, options, statistics));
+    free(depth);
+    free(holes);
+    return good;
+}
+
+// The first eye's picture, and from it the second one's.
+static struct pel_image *render_reprojected(struct pel_renderer *renderer, struct pel_scene *seen,
+                                            const struct pel_camera cameras[2],
+                                            const struct pel_render_options *options,
+                                            struct pel_render_statistics *statistics) {
+    if (!check_reproject(seen))
+        return NULL;
+    struct part part = {options, 0};
+    struct pel_render_options of_eye = options ? *options : (struct pel_render_options){0};
+    if (of_eye.progress) {
+        of_eye.progress = report_part;
+        of_eye.user = &part;
+    }
+    const struct pel_frame_eyes with_depth = {.eyes = EYES_DEPTH};
+    struct pel_image *both = pel_frame_render(renderer, seen, &with_depth, &of_eye, statistics);
+    part.begin = 0.5;
+    if (both && make_second(renderer, seen, cameras, both, &of_eye, statistics))
+        return both;
+    pel_image_destroy(both);
+    return NULL;
+}
+
+// Renders what two cameras see. The caller owns the picture.
+static struct pel_image *render_pair(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                     const struct pel_frame_eyes *eyes,
+                                     const struct pel_render_options *options,
+                                     struct pel_render_statistics *statistics) {
+    struct pel_camera cameras[2];
+    struct pel_stereo used;
+    if (!pel_stereo_cameras(scene, cameras, &used))
+        return NULL;
+    // The copy borrows everything the scene owns.
+    struct pel_scene seen = *scene;
+    seen.camera = cameras[0];
+    struct pel_frame_eyes both = *eyes;
+    both.second = &cameras[1];
+    struct pel_image *image;
+    if (is_debug(scene))
+        image = render_apart(renderer, &seen, &cameras[1], options, statistics);
+    else if (scene->stereo.reproject && eyes->eyes == EYES_BOTH)
+        image = render_reprojected(renderer, &seen, cameras, options, statistics);
+    else
+        image = pel_frame_render(renderer, &seen, &both, options, statistics);
+    statistics->stereo.separation_mm = used.separation_mm;
+    statistics->stereo.convergence_mm = used.convergence_mm;
+    return image;
 }
 
 bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_scene *scene,
@@ -41,36 +220,20 @@ bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_sc
         statistics = &unwanted;
     *statistics = (struct pel_render_statistics){0};
     eyes[0] = eyes[1] = NULL;
-    struct pel_camera cameras[2];
-    struct pel_stereo used;
-    if (!pel_stereo_cameras(scene, cameras, &used))
-        return false;
-    statistics->stereo.separation_mm = used.separation_mm;
-    statistics->stereo.convergence_mm = used.convergence_mm;
-
-    // The copy borrows everything the scene owns.
-    struct pel_scene seen = *scene;
-    for (int i = 0; i < 2; i++) {
-        struct part part = {options, i / 2.0};
-        struct pel_render_options of_eye = options ? *options : (struct pel_render_options){0};
-        if (of_eye.progress) {
-            of_eye.progress = report_part;
-            of_eye.user = &part;
-        }
-        seen.camera = cameras[i];
-        struct pel_render_statistics of_frame;
-        double begin_ms = pel_clock_ms();
-        eyes[i] = pel_frame_render(renderer, &seen, &of_eye, &of_frame);
-        if (!eyes[i]) {
-            pel_image_destroy(eyes[0]);
-            eyes[0] = NULL;
-            return false;
-        }
-        statistics->stereo.eye_ms[i] = pel_clock_ms() - begin_ms;
-        statistics->stereo.eye_samples[i] = of_frame.samples;
-        add_statistics(statistics, &of_frame);
+    const struct pel_frame_eyes both = {.eyes = EYES_BOTH};
+    struct pel_image *image = render_pair(renderer, scene, &both, options, statistics);
+    for (int i = 0; image && i < 2; i++)
+        eyes[i] = pel_image_create(image->width, image->height / 2);
+    bool good = eyes[0] && eyes[1];
+    size_t floats = good ? (size_t)image->width * (size_t)eyes[0]->height * 4 : 0;
+    for (int i = 0; good && i < 2; i++)
+        memcpy(eyes[i]->rgba, image->rgba + (size_t)i * floats, floats * sizeof *image->rgba);
+    for (int i = 0; !good && i < 2; i++) {
+        pel_image_destroy(eyes[i]);
+        eyes[i] = NULL;
     }
-    return true;
+    pel_image_destroy(image);
+    return good;
 }
 
 // Rows and columns are counted in the whole picture.
@@ -91,19 +254,26 @@ static bool begins_with_the_other_eye(const struct pel_scene *scene) {
 struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struct pel_scene *scene,
                                       const struct pel_render_options *options,
                                       struct pel_render_statistics *statistics) {
-    if (scene->stereo.kind == PEL_STEREO_NONE)
-        return pel_frame_render(renderer, scene, options, statistics);
     struct pel_render_statistics unwanted;
     if (!statistics)
         statistics = &unwanted;
-    struct pel_image *eyes[2];
-    if (!pel_renderer_render_eyes(renderer, scene, options, statistics, eyes))
-        return NULL;
+    *statistics = (struct pel_render_statistics){0};
+    struct pel_frame_eyes eyes = {.eyes = EYES_ONE};
+    if (scene->stereo.kind == PEL_STEREO_NONE)
+        return pel_frame_render(renderer, scene, &eyes, options, statistics);
+    eyes.eyes = find_weave(scene, eyes.weave) ? EYES_WOVEN : EYES_BOTH;
+    struct pel_image *image = render_pair(renderer, scene, &eyes, options, statistics);
+    if (!image || eyes.eyes == EYES_WOVEN)
+        return image;
     double begin_ms = pel_clock_ms();
+    int height = image->height / 2;
+    size_t floats = (size_t)image->width * (size_t)height * 4;
+    const struct pel_image pictures[2] = {{image->width, height, image->rgba},
+                                          {image->width, height, image->rgba + floats}};
     bool odd = begins_with_the_other_eye(scene);
-    struct pel_image *image = pel_stereo_compose(&scene->stereo, eyes[odd], eyes[!odd]);
+    struct pel_image *composed =
+        pel_stereo_compose(&scene->stereo, &pictures[odd], &pictures[!odd]);
     statistics->stereo.compose_ms = pel_clock_ms() - begin_ms;
-    pel_image_destroy(eyes[0]);
-    pel_image_destroy(eyes[1]);
-    return image;
+    pel_image_destroy(image);
+    return composed;
 }

@@ -4,7 +4,7 @@
 
 #include "world/world.h"
 
-enum { PEL_VARIANT_BYTES = 512 };
+enum { PEL_VARIANT_BYTES = 640 };
 
 // Zero-initialise and fill: variants are compared by the text they are written as.
 struct pel_variant {
@@ -17,6 +17,7 @@ struct pel_variant {
     int models;     // MODELS_*
     int skip;       // SKIP_*
     bool pool;      // bricks come from a pool
+    int eyes;       // EYES_*
     int capacity;   // parts: 1, 8 or WORLD_PART_MAX
     bool clip;      // some part is clipped
     bool masked;    // where some part is shown, another volume decides

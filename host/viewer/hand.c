@@ -2,6 +2,7 @@
 #include "viewer/hand.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "viewer/command.h"
 #include "viewer/keys.h"
@@ -123,7 +124,22 @@ static void move_split(struct pel_state *state, const double at_px[2]) {
     state->compare_old = true;
 }
 
-static void begin_left_drag(struct pel_state *state, int modifiers) {
+// A face of the orientation cube under the pointer shows what is seen from there.
+static bool take_cube(struct pel_state *state, const struct pel_event *event) {
+    struct pel_cube_face faces[3];
+    int count = event->window == state->window_count - 1 ? pel_state_cube(state, faces) : 0;
+    int face = pel_orientation_cube_hit(faces, count, (double[]){event->x, event->y});
+    const char *const *names = pel_navigation_view_names();
+    for (int i = 0; face >= 0 && names[i]; i++)
+        if (strcmp(names[i], faces[face].view) == 0)
+            pel_command_do(state, PEL_ACTION_VIEW, i);
+    return face >= 0;
+}
+
+static void begin_left_drag(struct pel_state *state, const struct pel_event *event) {
+    int modifiers = event->modifiers;
+    if (take_cube(state, event))
+        return;
     if (state->drag_view > 0 && state->compare.mode == PEL_COMPARE_SLICES) {
         state->drag = PEL_DRAG_CROSS;
         move_cross(state, state->drag_px);
@@ -154,7 +170,7 @@ static void begin_drag(struct pel_state *state, const struct pel_event *event) {
     pel_navigation_begin(&state->navigation);
     switch (event->button) {
     case PEL_BUTTON_LEFT:
-        begin_left_drag(state, event->modifiers);
+        begin_left_drag(state, event);
         break;
     case PEL_BUTTON_RIGHT:
         state->drag = shift ? PEL_DRAG_TILT : PEL_DRAG_PAN;

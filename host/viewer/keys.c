@@ -121,6 +121,7 @@ static const struct pel_key_row rows[] = {
     {NULL, "Ctrl + left click",
      "look at the point under the pointer, and put the cross-hair there"},
     {NULL, "left drag on the split line", "move the line"},
+    {NULL, "click on the orientation cube", "look from that side"},
     {NULL, "drop a file", "add a volume; a scene replaces what is there"},
     {"Camera", "w s", "forward, back"},
     {NULL, "a d", "left, right"},

@@ -8,13 +8,9 @@
 static const uint32_t white = 0xFFFFFFFF, shade = 0xA0000000, taken = 0xFF40E0FF;
 
 // The faces of the patient that are seen, with their letters.
-static void draw_cube(const struct pel_state *state, const struct pel_view *view,
-                      const struct pel_rectangle *where) {
-    double edge_px = 44 * state->windows[0].scale;
-    const double centre[2] = {where->x + where->width - 1.1 * edge_px,
-                              where->y + where->height - 1.1 * edge_px};
+static void draw_cube(const struct pel_state *state) {
     struct pel_cube_face faces[3];
-    int count = pel_orientation_cube(faces, view, centre, edge_px);
+    int count = pel_state_cube(state, faces);
     for (int i = 0; i < count; i++) {
         const struct pel_cube_face *face = &faces[i];
         for (int corner = 0; corner < 4; corner++)
@@ -210,7 +206,7 @@ void pel_panel_overlay(struct pel_state *state, int window) {
         return;
     pel_widget_draw_over(true);
     if (window == state->window_count - 1) {
-        draw_cube(state, &view, &shown->place);
+        draw_cube(state);
         draw_scale(state, &view, &shown->place);
     }
     const double at[2] = {state->pointer_px[0] - picture.x, state->pointer_px[1] - picture.y};

@@ -9,6 +9,9 @@
 // What the panels take of the window's width, in screen coordinates.
 enum { PEL_PANELS_COLUMN = 330 };
 
+// Whether there are any: the program may have been built without.
+bool pel_panels_exist(void);
+
 // For all windows.
 bool pel_panels_start(struct pel_state *state);
 void pel_panels_stop(struct pel_state *state);

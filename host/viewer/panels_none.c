@@ -1,9 +1,13 @@
 // panels_none.c - no panels: the program was built without Dear ImGui.
 #include "viewer/panels.h"
 
+bool pel_panels_exist(void) {
+    return false;
+}
+
 bool pel_panels_start(struct pel_state *state) {
     (void)state;
-    return true;
+    return false;
 }
 
 void pel_panels_stop(struct pel_state *state) {

@@ -51,17 +51,29 @@ bool pel_state_view(const struct pel_state *state, int number, struct pel_view *
 
 bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
     struct pel_view view;
-    return state->handles && pel_state_view(state, 0, &view) &&
+    return state->handles && state->with_panels && pel_state_view(state, 0, &view) &&
            pel_gizmo_make(gizmo, state->scene, state->selected, &view, 90 * state->windows[0].scale,
                           false);
 }
 
 bool pel_state_clip_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo) {
     struct pel_view view;
-    return state->clip > 0 && state->clip <= state->scene->clip_count &&
+    return state->with_panels && state->clip > 0 && state->clip <= state->scene->clip_count &&
            pel_state_view(state, 0, &view) &&
            pel_clip_gizmo(gizmo, &state->scene->clips[state->clip - 1], &view,
                           70 * state->windows[0].scale);
+}
+
+int pel_state_cube(const struct pel_state *state, struct pel_cube_face faces[3]) {
+    int window = state->window_count - 1;
+    const struct pel_rectangle *place = &state->views[window].place;
+    double edge_px = 44 * state->windows[0].scale;
+    const double centre[2] = {place->x + place->width - 1.1 * edge_px,
+                              place->y + place->height - 1.1 * edge_px};
+    struct pel_view view;
+    if (!state->readouts || !state->with_panels || !pel_state_view(state, window, &view))
+        return 0;
+    return pel_orientation_cube(faces, &view, centre, edge_px);
 }
 
 double pel_state_aspect(const struct pel_state *state) {

@@ -6,6 +6,7 @@
 #include "viewer/clip_handles.h"
 #include "viewer/compare.h"
 #include "viewer/film.h"
+#include "viewer/gauge.h"
 #include "viewer/handles.h"
 #include "viewer/history.h"
 #include "viewer/navigation.h"
@@ -97,8 +98,8 @@ struct pel_state {
     bool slices_old;      // slices have to be rendered anew
 
     // The values of the selected volume's mask, as they are typed.
-    char mask_text[128];
-    struct pel_mask mask_typed; // the mask that they were written from
+    char mask_text[1024];
+    char mask_written[1024]; // as they are
 
     // The plot of the transfer function.
     int opacity_point, colour_point; // taken last
@@ -158,6 +159,9 @@ bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo);
 
 // The gizmo of the clip whose handles are shown; false when there is none.
 bool pel_state_clip_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo);
+
+// The faces of the orientation cube in the last window, in its pixels; 0 when it is not shown.
+int pel_state_cube(const struct pel_state *state, struct pel_cube_face faces[3]);
 
 // Width over height of the picture that the camera is for.
 double pel_state_aspect(const struct pel_state *state);

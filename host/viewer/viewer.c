@@ -259,7 +259,7 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
 }
 
 static enum pel_error start(struct pel_state *state, char *sentence, size_t bytes) {
-    state->panels = state->readouts = !state->options->bare;
+    state->panels = state->readouts = pel_panels_exist() && !state->options->bare;
     char reason[256];
     if (!pel_window_start(reason, sizeof reason) ||
         !pel_screen_open(state, reason, sizeof reason)) {

@@ -2,8 +2,8 @@
 #include "world/scene_plan.h"
 #include "world/scene_write.h"
 
-static const char *const stereo_keys[] = {"comment", "kind",   "separation", "convergence",
-                                          "swap",    "toe_in", "matrix",     NULL};
+static const char *const stereo_keys[] = {"comment", "kind",   "separation", "convergence", "swap",
+                                          "toe_in",  "matrix", "reproject",  NULL};
 static const char *const length_names[] = {"automatic", NULL};
 
 // A length, or "automatic", which is 0 in memory. *given tells them apart.
@@ -63,7 +63,8 @@ bool pel_scene_read_stereo(struct pel_scene *scene, const struct pel_scene_node 
         !read_length(&node, "convergence", &pel_positive_number, &stereo->convergence_mm,
                      &converging) ||
         !pel_node_get_bool(&node, "swap", &stereo->swap) ||
-        !pel_node_get_bool(&node, "toe_in", &stereo->toe_in))
+        !pel_node_get_bool(&node, "toe_in", &stereo->toe_in) ||
+        !pel_node_get_bool(&node, "reproject", &stereo->reproject))
         return false;
     stereo->kind = (enum pel_stereo_kind)kind;
     stereo->flat = separated && stereo->separation_mm == 0;
@@ -85,6 +86,7 @@ void pel_scene_write_stereo(struct pel_scene_writer *writer, json_t *root) {
     pel_write_number(writer, object, "convergence", stereo->convergence_mm, 0);
     pel_write_bool(writer, object, "swap", stereo->swap, false);
     pel_write_bool(writer, object, "toe_in", stereo->toe_in, false);
+    pel_write_bool(writer, object, "reproject", stereo->reproject, false);
     if (matrix || stereo->kind == PEL_STEREO_MATRIX) {
         json_t *rows = json_array();
         for (int row = 0; row < 3; row++)

@@ -113,8 +113,11 @@ bool pel_scene_choose_skip(const struct pel_scene *scene, enum pel_skip *skip,
                                               .max_allocation_bytes = UINT64_MAX};
     struct pel_layout layout;
     struct pel_world world;
-    if (!pel_layout_plan(&layout, scene, &endless, PEL_READER_BUFFER, PEL_READER_BUFFER) ||
-        !pel_world_build(&world, scene, &layout))
+    struct pel_memo memo = {0};
+    bool good = pel_layout_plan(&layout, scene, &endless, PEL_READER_BUFFER, PEL_READER_BUFFER) &&
+                pel_world_build(&world, scene, &layout, &memo);
+    pel_memo_finish(&memo);
+    if (!good)
         return false;
     struct pel_skip_facts facts;
     pel_skip_find_facts(&facts, scene, &world, PEL_READER_BUFFER);

@@ -16,7 +16,6 @@
 #include "world/mask.h"
 #include "world/mixing.h"
 #include "world/model.h"
-#include "world/pairs.h"
 #include "world/secondary.h"
 #include "world/step.h"
 #include "world/strength.h"
@@ -98,6 +97,29 @@ static bool fill_recipe(struct pel_world *world, struct part *part, int volume) 
     return true;
 }
 
+// The ball around a part's box, a little too large for what rounding may add.
+static float4 bound_part(const struct part *part, const struct pel_matrix *world_from_voxel) {
+    const double low[3] = {part->box_low.x, part->box_low.y, part->box_low.z};
+    const double high[3] = {part->box_high.x, part->box_high.y, part->box_high.z};
+    double middle[3], radius = 0;
+    for (int i = 0; i < 3; i++) {
+        middle[i] = world_from_voxel->m[i][3];
+        for (int j = 0; j < 3; j++)
+            middle[i] += world_from_voxel->m[i][j] * (low[j] + high[j]) / 2;
+    }
+    for (int corner = 0; corner < 8; corner++) {
+        double squared = 0;
+        for (int i = 0; i < 3; i++) {
+            double away = world_from_voxel->m[i][3] - middle[i];
+            for (int j = 0; j < 3; j++)
+                away += world_from_voxel->m[i][j] * (corner >> j & 1 ? high[j] : low[j]);
+            squared += away * away;
+        }
+        radius = fmax(radius, sqrt(squared));
+    }
+    return to_float4(middle, radius * (1 + 1e-5) + 1e-6 * pel_length(middle));
+}
+
 // The parts of one instance, one for each slab of its volume.
 static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_layout *layout, const struct pel_instance *instance,
@@ -139,6 +161,7 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
         shift[2] -= slab->first;
         part->box_low = to_float4(low, 0);
         part->box_high = to_float4(high, 0);
+        world->bytes.balls[part->number] = bound_part(part, &world_from_voxel);
         part->memory_from_voxel = to_float4(shift, 0);
         part->atlas_from_memory = to_float4(origin, 0);
         part->buffer = slab->buffer;
@@ -193,74 +216,47 @@ static double sample_mm(const struct pel_world *world, const struct pel_scene *s
                                            : world->bytes.step_mm;
 }
 
-// Appends a table of pairs of values, over those that the volume has.
-static bool fill_pairs(struct pel_world *world, const struct pel_scene *scene,
-                       const struct pel_layout *layout, const struct pel_instance *instance,
-                       const struct pel_table *table, const struct pel_strength_rule *rule,
-                       struct part *part) {
-    size_t entries = (size_t)PAIR_ENTRIES * PAIR_ENTRIES;
-    size_t words = world->table_words + entries * PEL_STRENGTH_WORDS;
-    u32 *tables = realloc(world->tables, words * sizeof *tables);
-    if (!tables)
-        return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
-    world->tables = tables;
-    const struct pel_statistics *values = &scene->statistics[instance->volume];
-    bool ranges = values->max > values->min;
-    struct pel_table ends = *table;
-    ends.low = values->min;
-    ends.high = ranges ? values->max : values->min + 1;
-    u32 along[PAIR_ENTRIES][PEL_STRENGTH_WORDS];
-    pel_pairs_write(tables + world->table_words, along, table, (double[]){ends.low, ends.high},
-                    rule);
-    part->table = (u32)world->table_words;
-    world->table_words = words;
-    fill_table_address(part, scene->volumes[instance->volume], &ends, PAIR_ENTRIES - 1,
-                       layout->reader);
-    return count_visible(world, along[0], PAIR_ENTRIES, part);
-}
-
 // Appends the instance's table to the world's and lets `part` refer to it.
 static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_layout *layout, const struct pel_instance *instance,
-                       const struct pel_table *table, struct part *part) {
-    struct pel_strength_rule rule = {.step_mm = sample_mm(world, scene, instance),
-                                     .depth = world->depth};
-    pel_model_fill_rule(&rule, scene, instance);
-    if (rule.model == MODEL_PREINTEGRATED)
-        return fill_pairs(world, scene, layout, instance, table, &rule, part);
-    int refinement = pel_strength_refinement(table, world->table_linear);
-    // One entry more: interpolation at the last one reads the next, at weight 0.
-    size_t entries = (size_t)(table->entry_count - 1) * (size_t)refinement + 2;
-    size_t words = world->table_words + entries * PEL_STRENGTH_WORDS;
+                       struct pel_memo_table *memo, struct part *part) {
+    struct pel_memo_form form = {.depth = world->depth, .linear = world->table_linear};
+    struct pel_table ends = memo->table;
+    bool pairs = memo->rule.model == MODEL_PREINTEGRATED;
+    if (pairs) { // over the values that the volume has
+        const struct pel_statistics *values = &scene->statistics[instance->volume];
+        ends.low = form.low = values->min;
+        ends.high = form.high = values->max > values->min ? values->max : values->min + 1;
+    }
+    if (!pel_memo_write(memo, &form))
+        return false;
+    size_t words = world->table_words + memo->entries * PEL_STRENGTH_WORDS;
     u32 *tables = realloc(world->tables, words * sizeof *tables);
     if (!tables)
         return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
     world->tables = tables;
-    u32 *start = tables + world->table_words;
-    pel_strength_write(start, table, refinement, &rule);
-    memcpy(start + (entries - 1) * PEL_STRENGTH_WORDS, start + (entries - 2) * PEL_STRENGTH_WORDS,
-           PEL_STRENGTH_WORDS * sizeof *start);
+    memcpy(tables + world->table_words, memo->words,
+           memo->entries * PEL_STRENGTH_WORDS * sizeof *tables);
     part->table = (u32)world->table_words;
     world->table_words = words;
-    if (!count_visible(world, start, entries, part))
-        return false;
-    fill_table_address(part, scene->volumes[instance->volume], table,
-                       (table->entry_count - 1) * refinement, layout->reader);
-    return true;
+    int last = pairs ? PAIR_ENTRIES - 1 : (int)memo->entries - 2;
+    fill_table_address(part, scene->volumes[instance->volume], &ends, last, layout->reader);
+    return count_visible(world, memo->seen, memo->seen_entries, part);
 }
 
 // Builds every visible instance's table, so that the kernel's way of reading them can be decided.
-static bool build_tables(struct pel_table *tables, struct pel_world *world,
+static bool build_tables(struct pel_memo *memo, struct pel_world *world,
                          const struct pel_scene *scene) {
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];
         if (instance->hidden)
             continue;
-        if (!pel_table_build(&tables[k], instance->transfer, scene->volumes[instance->volume]))
-            return pel_fail_in("volume '%s'", instance->name);
         struct pel_strength_rule rule = {.step_mm = sample_mm(world, scene, instance)};
         pel_model_fill_rule(&rule, scene, instance);
-        if (!pel_strength_is_gentle(&tables[k], &rule))
+        if (!pel_memo_build(&memo->tables[k], instance->transfer, scene->volumes[instance->volume],
+                            &rule))
+            return pel_fail_in("volume '%s'", instance->name);
+        if (!memo->tables[k].gentle)
             world->table_linear = true;
     }
     return true;
@@ -331,7 +327,7 @@ static int count_slabs(const struct pel_layout *layout, const struct pel_instanc
 }
 
 static bool fill_instances(struct pel_world *world, const struct pel_scene *scene,
-                           const struct pel_layout *layout, const struct pel_table *tables,
+                           const struct pel_layout *layout, struct pel_memo *memo,
                            const double centre[3]) {
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];
@@ -344,12 +340,12 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (world->models & MODELS_EMISSION)
             pattern.filter = FILTERS_NEAREST;
         world->filters |= pattern.filter;
-        if (!fill_table(world, scene, layout, instance, &tables[k], &pattern))
+        if (!fill_table(world, scene, layout, instance, &memo->tables[k], &pattern))
             return false;
+        const struct pel_table *table = &memo->tables[k].table;
         if (!pel_lighting_fill_part(&pattern, instance, scene->volumes[instance->volume]) ||
-            !pel_style_fill_part(&pattern, instance, tables[k].high - tables[k].low) ||
-            !pel_model_fill_part(&pattern, scene, instance, &tables[k],
-                                 count_slabs(layout, instance)))
+            !pel_style_fill_part(&pattern, instance, table->high - table->low) ||
+            !pel_model_fill_part(&pattern, scene, instance, table, count_slabs(layout, instance)))
             return pel_fail_in("volume '%s'", instance->name);
         world->shaded |= pattern.shading != SHADING_NONE || pattern.styled;
         world->styled |= pattern.styled || pattern.gradient != GRADIENT_CENTRAL;
@@ -388,10 +384,12 @@ static bool fill_masks(struct pel_world *world, const struct pel_scene *scene,
 }
 
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
-                     const struct pel_layout *layout) {
+                     const struct pel_layout *layout, struct pel_memo *memo) {
     memset(world, 0, sizeof *world);
     world->cell_side = layout->cell_side;
     world->pool = layout->pool;
+    world->eyes = EYES_ONE;
+    world->bytes.pictures = 1;
     struct pel_bounds bounds = {{0}, {0}};
     int visible = 0;
     for (int k = 0; k < scene->instance_count; k++)
@@ -417,15 +415,29 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
             parts += count_slabs(layout, &scene->instances[k]);
     world->mixing = parts > 1 ? pel_mixing_find(scene->render.mixing) : MIXING_SUM;
     world->depth = parts > 1 && world->mixing != MIXING_OVER && world->mixing != MIXING_ORDERED;
-    struct pel_table tables[PEL_VOLUME_MAX] = {{0}};
-    bool good = build_tables(tables, world, scene);
-    good = good && fill_instances(world, scene, layout, tables, centre) &&
+    bool good = build_tables(memo, world, scene);
+    good = good && fill_instances(world, scene, layout, memo, centre) &&
            fill_masks(world, scene, layout, centre) && pel_secondary_fill(world, scene);
-    for (int k = 0; k < PEL_VOLUME_MAX; k++)
-        pel_table_finish(&tables[k]);
     if (!good)
         pel_world_finish(world);
     return good;
+}
+
+bool pel_world_add_eye(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_camera *second, int eyes, const int weave[2]) {
+    world->eyes = eyes;
+    world->bytes.pictures = pel_world_pictures(world);
+    world->bytes.weave_x = weave[0];
+    world->bytes.weave_y = weave[1];
+    return fill_camera(&world->bytes.second, second, &scene->render, world->centre);
+}
+
+int pel_world_pictures(const struct pel_world *world) {
+    return world->eyes == EYES_BOTH ? 2 : 1;
+}
+
+int pel_world_planes(const struct pel_world *world) {
+    return world->eyes == EYES_BOTH || world->eyes == EYES_DEPTH ? 2 : 1;
 }
 
 void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {

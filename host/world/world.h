@@ -4,6 +4,7 @@
 
 #include "shared/recipe.h"
 #include "world/layout.h"
+#include "world/memo.h"
 
 // One frame's constant data, and which kernel it needs.
 struct pel_world {
@@ -20,6 +21,7 @@ struct pel_world {
     int filters;        // FILTERS_*
     int mixing;         // MIXING_*
     int models;         // MODELS_*
+    int eyes;           // EYES_*
     int secondary;      // SECONDARY_*
     int cut_count;      // of bytes.cuts; directions of ambient occlusion come behind them
     bool clipped;       // some part has planes or boxes
@@ -39,12 +41,23 @@ struct pel_world {
     bool depth; // strengths are optical depths: more than one part, and extinctions add
 };
 
-// Fills a world from a scene whose volumes lie as `layout` says. Fails (MEMORY, ARGUMENT) on
+// Fills a world from a scene whose volumes lie as `layout` says. Tables that are in `memo` from a
+// frame before are not made anew. Fails (MEMORY, ARGUMENT) on
 // settings that cannot be: a camera without direction, a singular placement, more parts than
 // WORLD_PART_MAX.
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
-                     const struct pel_layout *layout);
+                     const struct pel_layout *layout, struct pel_memo *memo);
 void pel_world_finish(struct pel_world *world);
+
+// Lets the world be seen by a second eye, too: EYES_BOTH, or EYES_WOVEN, whose picture's pixels
+// are the second one's where weave[0] x + weave[1] y is odd. Fails (ARGUMENT) on a camera without
+// direction.
+bool pel_world_add_eye(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_camera *second, int eyes, const int weave[2]);
+
+// How many pictures rays are followed for, and how many lie above each other, depth counted as one.
+int pel_world_pictures(const struct pel_world *world);
+int pel_world_planes(const struct pel_world *world);
 
 // How many of the first bytes of world->bytes there are for a kernel to read.
 size_t pel_world_bytes(const struct pel_world *world);

@@ -92,6 +92,12 @@
 #define LAMP_POINT 2       // one place
 #define LAMP_MAX 8
 
+// EYES: whose rays the picture's are.
+#define EYES_ONE 1
+#define EYES_BOTH 2  // two pictures, the second eye's behind the first one's; their tiles take turns
+#define EYES_WOVEN 3 // one picture, whose pixels are one eye's or the other's
+#define EYES_DEPTH 4 // one picture, and behind it how far away what each pixel shows is
+
 // What a debug view shows of each ray (kernels/debug.cl). The knob DEBUG is 1 when the device counts.
 #define DEBUG_NONE 0
 #define DEBUG_SAMPLES 1    // samples taken

@@ -5,7 +5,7 @@
 // voxel coordinates shifted so that they count from the first stored voxel, border included.
 //
 //     struct world
-//       struct camera          the only part that changes when the camera moves
+//       struct camera [2]      the only part that changes when the camera moves; of both eyes
 //       bounds, step ...       one per frame
 //       struct lamp lamps[]    what shaded volumes are lit by
 //       struct part parts[]    one box of voxels each, in the order of the scene's list
@@ -95,7 +95,7 @@ struct part {
 SHARED_ASSERT(sizeof(struct part) == 448, part_size);
 
 struct world {
-    struct camera camera;
+    struct camera camera, second; // with EYES_ONE, the second is not looked at
     float4 bounds_low, bounds_high; // of all parts
     float4 background;              // premultiplied
     float step_mm;
@@ -115,16 +115,21 @@ struct world {
     i32 lamp_count;
     i32 debug; // one of DEBUG_*
     i32 medium_count; // instances that are mixed
+    i32 weave_x, weave_y; // EYES_WOVEN: pixels where weave_x * x + weave_y * y is odd are the second eye's
+    i32 pictures; // above each other, one of each eye: 1 or 2
+    i32 pad[1];
     float shadow_step_mm, shadow_length_mm, shadow_strength;
     float occlusion_step_mm, occlusion_radius_mm, occlusion_strength;
     i32 occlusion_count; // directions,
     i32 directions;      // and the index of the first one's row
+    float4 balls[WORLD_PART_MAX]; // around the box of each part: middle and radius
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
     float4 cuts[WORLD_ROW_MAX]; // only as many as there are reach the device
 };
 
-SHARED_ASSERT(sizeof(struct world) == 256 + 48 * LAMP_MAX + 448 * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
+SHARED_ASSERT(sizeof(struct world) ==
+                  368 + 48 * LAMP_MAX + (16 + 448) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
               world_size);
 
 #endif

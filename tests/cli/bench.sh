@@ -39,12 +39,13 @@ if not eval(sys.argv[2]):
 expect 0 '^\| .* 6 \| overlapping  .* 32 \| .* of #1 \|$' bench volumes "${small[@]}" --json v.json --markdown v.md
 cmp -s out v.md || complain "--markdown differs from standard output"
 grep -q '^| *11 | side by side .* 32 |' out || complain "no 32 volumes side by side: $(cat out)"
-check_lines v.json '[c["volumes"] for c in x] == [1, 2, 4, 8, 16, 32, 2, 4, 8, 16, 32]'
+check_lines v.json '[c["volumes"] for c in x] == [1, 2, 4, 8, 16, 32, 2, 4, 8, 16, 32, 1, 2, 4, 8, 16, 32]'
 check_lines v.json 'all((c["width"], c["height"], c["frames"]) == (32, 24, 2) for c in x)'
 check_lines v.json 'all(0 < c["min_ms"] <= c["median_ms"] <= c["max_ms"] and c["kernel_ms"] > 0 for c in x)'
 check_lines v.json 'all(abs(c["msamples_s"] * c["median_ms"] * 1e3 / c["samples"] - 1) < 0.01 for c in x)'
 check_lines v.json 'x[5]["samples"] > 4 * x[2]["samples"] and x[10]["samples"] < 4 * x[6]["samples"]'
-check_lines v.json 'all(c["baseline"] == 1 and c["baseline_ratio"] > 0 for c in x[1:]) and "baseline" not in x[0]'
+check_lines v.json 'all(c["baseline"] == 1 and c["baseline_ratio"] > 0 for c in x[1:11]) and "baseline" not in x[0]'
+check_lines v.json 'all(c["baseline"] == 12 for c in x[12:]) and x[16]["samples"] < 4 * x[11]["samples"]'
 check_lines v.json 'all(c["device"] and c["driver"] and c["threads"] > 0 and c["reader"] and c["lanes"] for c in x)'
 
 # A scene of one's own, JSON on standard output and nothing beside it.

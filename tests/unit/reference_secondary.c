@@ -37,7 +37,8 @@ static void test_slabs(void **state) {
     scene->instances[1].density = 3;
     const double first = extinction(0.2), second = 3 * extinction(0.1);
     const double from[3] = {1, 0.5, -30}, up[3] = {0, 0, 1};
-    for (double step_mm = 0.25; step_mm <= 1; step_mm *= 2) {
+    for (int halvings = 0; halvings <= 2; halvings++) {
+        double step_mm = ldexp(1, -halvings);
         assert_near(through(scene, from, up, INFINITY, step_mm), exp(-8 * first - 20 * second),
                     1e-12);
         assert_near(through(scene, from, up, 30, step_mm), exp(-4 * first - 10 * second), 1e-12);
@@ -100,7 +101,8 @@ static void test_surface(void **state) {
     scene->instances[0].surfaces[0] = (struct pel_surface){.value = 95, .opacity = 0.25};
     scene->instances[0].surfaces[1] = (struct pel_surface){.value = 90.25, .opacity = 0.5};
     const double up[3] = {0, 0, 1}, slanted[3] = {1, 0, 3};
-    for (double step_mm = 0.5; step_mm <= 2; step_mm *= 2) {
+    for (int doublings = -1; doublings <= 1; doublings++) {
+        double step_mm = ldexp(1, doublings);
         assert_near(through(scene, (double[]){0, 0, -30}, up, INFINITY, step_mm), 0.375, 1e-12);
         assert_near(through(scene, (double[]){0, 0, -2}, up, INFINITY, step_mm), 0.5, 1e-12);
         assert_near(through(scene, (double[]){-3, 0, -2}, slanted, INFINITY, step_mm), 0.5, 1e-12);

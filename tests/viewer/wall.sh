@@ -30,6 +30,19 @@ eyes=(--set stereo.kind=row-interlaced --set stereo.separation=8)
 expect 0 '' view scene.json --bare "${eyes[@]}" --screenshot eyes.ppm
 same "two eyes" eyes.ppm whole.ppm
 
+# So do the squares of two volumes that are compared, while slices beside the picture have no room: six keys
+# lead a wall, which leaves them out, back to the picture.
+"$PELLUCID" generate head-mri --size 24 -o mri.nrrd 2>/dev/null || complain "cannot generate"
+both=(ct.nrrd mri.nrrd --size 241x135 --bare)
+echo '{"steps": [{"wait": "rest"}, {"key": "b"}, {"key": "b"}, {"wait": "rest"}, {"screenshot": "squares.ppm"},
+    {"key": "b"}, {"key": "b"}, {"key": "b"}, {"key": "b"}, {"wait": "rest"}]}' >compare.json
+expect 0 '' view "${both[@]}" --script compare.json --screenshot slices.ppm
+mv squares.ppm single.ppm
+expect 0 '' view "${both[@]}" --set 'wall={"columns": 3, "rows": 2}' --script compare.json --screenshot back.ppm
+same "squares" squares.ppm single.ppm
+expect 0 '' view "${both[@]}" --screenshot picture.ppm
+same "after comparing" back.ppm picture.ppm
+
 # What the bezels hide is hidden: it is black, and all else is as it is without them.
 "$PELLUCID" render scene.json --set wall=null -o whole.ppm || complain "cannot render"
 expect 0 '' view scene.json --bare --set 'wall={"columns": 2, "bezel": [0.1, 0]}' --screenshot bezel.ppm

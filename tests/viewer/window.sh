@@ -10,6 +10,13 @@ small=(head.nrrd --size 200x150)
 expect 0 '' view "${small[@]}" --bare --screenshot still.ppm
 [ "$(differ still.ppm render.ppm)" = 0 ] || complain "window and picture differ by $(differ still.ppm render.ppm)"
 
+# Every kind of stereo is one key after the other, each seen at rest; the last key leads back to one eye.
+python3 -c '
+import json
+json.dump({"steps": 31 * [{"key": "z"}, {"wait": "rest"}]}, open("stereo.json", "w"))'
+expect 0 '' view "${small[@]}" --bare --script stereo.json --screenshot eyes.ppm
+[ "$(differ eyes.ppm render.ppm)" = 0 ] || complain "after all kinds of stereo: $(differ eyes.ppm render.ppm)"
+
 # So many pictures, and the end.
 expect 0 '' view "${small[@]}" --bare --frames 1
 
