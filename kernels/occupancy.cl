@@ -86,8 +86,7 @@ static uchar find_cell(__constant struct world *world, __constant struct part *p
                        __global const float2 *ranges, __global const uint *counts, uint count,
                        int i, bool linear, uchar empty) {
 #if MASKED
-    if (mask_empties(world, part, ranges, i % part->cell_row,
-                     i % part->cell_slice / part->cell_row, i / part->cell_slice))
+    if (mask_empties(world, part, ranges, i % part->cell_row, i % part->cell_slice / part->cell_row, i / part->cell_slice))
         return empty;
 #endif
     float2 range = ranges[part->ranges + i];
@@ -107,8 +106,7 @@ struct cell_row {
 // One way along a row. What a cell is told from behind is the least of max(k, distance of the k-th cell behind it), which
 // grows by no more than one from cell to cell: it stays what it was, v, as long as a cell with no more than v is no
 // further than v away. `last` has where each distance was met last.
-static void spread_one_way(__global const uchar *in, __global uchar *out, struct cell_row row,
-                           bool back) {
+static void spread_one_way(__global const uchar *in, __global uchar *out, struct cell_row row, bool back) {
     short last[CELL_DISTANCE_MAX + 1];
     for (int d = 0; d <= CELL_DISTANCE_MAX; d++)
         last[d] = -CELL_DISTANCE_MAX - 1;
@@ -214,8 +212,7 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
         return;
     __constant struct part *part = &world->parts[part_index];
     if (pass == PASS_OCCUPY) {
-        out[part->cells + i] =
-            find_cell(world, part, ranges, visible, count, (int)i, linear, (uchar)empty);
+        out[part->cells + i] = find_cell(world, part, ranges, visible, count, (int)i, linear, (uchar)empty);
         return;
     }
     const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
@@ -233,11 +230,9 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     if (pass == PASS_VISIBLE)
         out[i] = visible_bins(part, visible + part->visible);
     else if (pass == PASS_CORNER)
-        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0),
-                          visible + part->visible, linear);
+        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0), visible + part->visible, linear);
     else if (pass >= PASS_BINS)
-        out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS),
-                           empty);
+        out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS), empty);
     else
 #endif
     if (pass == PASS_NAME)
