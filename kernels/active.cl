@@ -44,7 +44,9 @@ INLINE void join_active(__constant struct world *world, __global const uchar *ce
 // more to show leave.
 INLINE integer leap(struct active *active, const struct crossing *crossing, integer i) {
     integer next = active->until;
+#if CAPACITY > 1
     int kept = 0;
+#endif
     for (int a = 0; a < COUNTED(active->count); a++) {
         const int c = LISTED(active->list, a);
         const struct cursor *cursor = &crossing->cursors[c];

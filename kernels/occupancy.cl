@@ -80,15 +80,21 @@ static bool occupied(__constant struct part *part, float2 range, __global const 
     return counts[last + 1] > counts[first];
 }
 
-// Whether something may be visible in cell i of a part; 0 when it may.
+// Whether something may be visible in cell i of a part's `count`; 0 when it may. There are many, so divisions are left to
+// those that need them.
 static uchar find_cell(__constant struct world *world, __constant struct part *part,
-                       __global const float2 *ranges, __global const uint *counts,
-                       struct cell_dims dims, int i, bool linear, uchar empty) {
+                       __global const float2 *ranges, __global const uint *counts, uint count,
+                       int i, bool linear, uchar empty) {
 #if MASKED
-    if (mask_empties(world, part, ranges, i % dims.x, i / dims.x % dims.y, i / part->cell_slice))
+    if (mask_empties(world, part, ranges, i % part->cell_row, i % part->cell_slice / part->cell_row, i / part->cell_slice))
         return empty;
 #endif
-    const float2 range = reachable(part, ranges + part->ranges, dims, i);
+    float2 range = ranges[part->ranges + i];
+    if (part->filter & FILTERS_CUBIC) {
+        const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
+                                       (int)count / part->cell_slice};
+        range = reachable(part, ranges + part->ranges, dims, i);
+    }
     return occupied(part, range, counts + part->visible, linear) ? 0 : empty;
 }
 
@@ -100,8 +106,7 @@ struct cell_row {
 // One way along a row. What a cell is told from behind is the least of max(k, distance of the k-th cell behind it), which
 // grows by no more than one from cell to cell: it stays what it was, v, as long as a cell with no more than v is no
 // further than v away. `last` has where each distance was met last.
-static void spread_one_way(__global const uchar *in, __global uchar *out, struct cell_row row,
-                           bool back) {
+static void spread_one_way(__global const uchar *in, __global uchar *out, struct cell_row row, bool back) {
     short last[CELL_DISTANCE_MAX + 1];
     for (int d = 0; d <= CELL_DISTANCE_MAX; d++)
         last[d] = -CELL_DISTANCE_MAX - 1;
@@ -206,6 +211,10 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     if (i >= count)
         return;
     __constant struct part *part = &world->parts[part_index];
+    if (pass == PASS_OCCUPY) {
+        out[part->cells + i] = find_cell(world, part, ranges, visible, count, (int)i, linear, (uchar)empty);
+        return;
+    }
     const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
                                    (int)count / part->cell_slice};
     in += part->cells;
@@ -221,16 +230,12 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     if (pass == PASS_VISIBLE)
         out[i] = visible_bins(part, visible + part->visible);
     else if (pass == PASS_CORNER)
-        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0),
-                          visible + part->visible, linear);
+        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0), visible + part->visible, linear);
     else if (pass >= PASS_BINS)
-        out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS),
-                           empty);
+        out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS), empty);
     else
 #endif
-    if (pass == PASS_OCCUPY)
-        out[i] = find_cell(world, part, ranges, visible, dims, (int)i, linear, (uchar)empty);
-    else if (pass == PASS_NAME)
+    if (pass == PASS_NAME)
         out[i] = name_node(part, in, dims, (int)i);
     else if (pass >= PASS_BRICK)
         out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));

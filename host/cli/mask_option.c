@@ -24,7 +24,8 @@ static json_t *make_mask(const struct pel_mask *mask, const char *other) {
         else
             json_array_append_new(ranges, report_numbers((double[]){range->low, range->high}, 2));
     }
-    json_object_set_new(object, "volume", index ? json_integer(atoi(other)) : json_string(other));
+    json_object_set_new(object, "volume",
+                        index ? json_integer(strtol(other, NULL, 10)) : json_string(other));
     if (json_array_size(ranges) > 0)
         json_object_set(object, "ranges", ranges);
     if (threshold < INFINITY)

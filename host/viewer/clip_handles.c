@@ -1,22 +1,19 @@
 // clip_handles.c - planes and boxes that cut, as things to take hold of.
 #include "viewer/clip_handles.h"
 
-#include <string.h>
-
 #include "viewer/vector.h"
 
 // Unit vectors of the clip: a box's axes, or two in the plane and its normal.
 static void axes_of(const struct pel_clip *clip, double axes[3][3]) {
-    static const double nothing[4] = {0};
-    bool turned = memcmp(clip->xyzw, nothing, sizeof nothing) != 0;
+    const double *xyzw = clip->xyzw;
+    bool turned = xyzw[0] != 0 || xyzw[1] != 0 || xyzw[2] != 0 || xyzw[3] != 0;
     for (int axis = 0; axis < 3; axis++) {
         const double unit[3] = {axis == 0, axis == 1, axis == 2};
         vector_set(axes[axis], unit);
         if (turned && clip->kind == PEL_CLIP_BOX) {
-            double q[4], length = hypot(hypot(clip->xyzw[0], clip->xyzw[1]),
-                                        hypot(clip->xyzw[2], clip->xyzw[3]));
+            double q[4], length = hypot(hypot(xyzw[0], xyzw[1]), hypot(xyzw[2], xyzw[3]));
             for (int i = 0; i < 4; i++)
-                q[i] = clip->xyzw[i] / length;
+                q[i] = xyzw[i] / length;
             quaternion_rotate(axes[axis], q, unit);
         }
     }

@@ -104,11 +104,11 @@ static void set_mask(struct pel_state *state, struct pel_instance *instance, int
 
 static void draw_mask_values(struct pel_state *state, struct pel_instance *instance) {
     // What is being typed stays until the mask changes, or another one is shown.
-    struct pel_mask *typed = &state->mask_typed;
-    if (typed->range_count != instance->mask.range_count ||
-        memcmp(typed->ranges, instance->mask.ranges, sizeof typed->ranges) != 0) {
-        *typed = instance->mask;
-        pel_mask_write_values(typed, state->mask_text, sizeof state->mask_text);
+    char written[sizeof state->mask_written];
+    pel_mask_write_values(&instance->mask, written, sizeof written);
+    if (strcmp(written, state->mask_written) != 0) {
+        strcpy(state->mask_written, written);
+        strcpy(state->mask_text, written);
     }
     pel_widget_edit("values", state->mask_text, sizeof state->mask_text);
     pel_widget_hint("labels, ranges such as 3..5, and >=0.5, with commas between them");

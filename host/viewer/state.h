@@ -98,8 +98,8 @@ struct pel_state {
     bool slices_old;      // slices have to be rendered anew
 
     // The values of the selected volume's mask, as they are typed.
-    char mask_text[128];
-    struct pel_mask mask_typed; // the mask that they were written from
+    char mask_text[1024];
+    char mask_written[1024]; // as they are
 
     // The plot of the transfer function.
     int opacity_point, colour_point; // taken last

@@ -266,7 +266,7 @@ int pel_window_monitor_count(void) {
     return glfwGetMonitors(&count) ? count : 0;
 }
 
-// What a window that was placed by GLFW covers, be it full screen or not.
+// The monitor that shares most area with the window.
 int pel_window_monitor(struct pel_window *window) {
     int x, y, width, height, count, best = 0;
     glfwGetWindowPos(window->handle, &x, &y);

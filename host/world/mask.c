@@ -151,7 +151,7 @@ uint64_t pel_mask_hash(const struct pel_world *world) {
     uint64_t hash = 0xcbf29ce484222325U;
     for (int p = 0; p < world->bytes.part_count; p++) {
         const struct part *part = &world->bytes.parts[p];
-        size_t rows = (size_t)(3 * part->mask_count + part->mask_range_count);
+        size_t rows = 3 * (size_t)part->mask_count + (size_t)part->mask_range_count;
         hash = hash_bytes(hash, &world->bytes.cuts[part->mask_cuts],
                           part->mask_count ? rows * sizeof *world->bytes.cuts : 0);
     }

@@ -174,6 +174,18 @@ cmp -s stack.tif kept.tif || complain "the input was overwritten"
 [ -z "$(find . -name '*.??????' -newer stack.tif -name '*g.*')" ] || complain "temporaries are left: $(ls)"
 expect 2 '^pellucid: the name of a file is empty' render ''
 
+# A region is what would be cut out of the whole picture.
+expect 0 '' render data/box.nii.gz "${small[@]}" -o whole.ppm
+expect 0 '' render data/box.nii.gz "${small[@]}" --region 5,3,20,11 -o part.ppm
+python3 -c '
+whole, part = (open(name, "rb").read()[-size * 3:] for name, size in (("whole.ppm", 32 * 24), ("part.ppm", 20 * 11)))
+rows = [whole[3 * (32 * (3 + y) + 5):][:60] for y in range(11)]
+assert open("part.ppm", "rb").read().split()[1:3] == [b"20", b"11"] and b"".join(rows) == part and any(part)' ||
+    complain "a region is not the part of the whole"
+expect 2 'render\.region.*: 20, 0, 20, 4 is not inside the picture of 32 x 24' render data/box.nii.gz "${small[@]}" \
+    --region 20,0,20,4
+expect 2 "^pellucid: --region: '1,2,3' is not of the form X,Y,W,H" render data/box.nii.gz --region 1,2,3
+
 # Numbers come back as they were given.
 expect 2 "^pellucid: --set render\.phase=-0\.1: " render data/box.nii.gz --phase=-0.1
 

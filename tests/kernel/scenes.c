@@ -19,13 +19,16 @@ static int is_scene(const struct dirent *entry) {
 static struct pel_scene *load_small(const char *name) {
     char path[1024];
     snprintf(path, sizeof path, "%s/scenes/%s", TEST_SOURCE, name);
-    const char *small[] = {"render.size=[16,12]", "render.step=1", "volumes.*.generate.size=12"};
+    const char *small[] = {"render.size=[16,12]", "render.step=1", "volumes.*.generate.size=12",
+                           "volumes.*.generate.spacing=4"};
+    // Volumes with a spacing of their own keep their size in millimetres.
+    int small_count = strstr(name, "level-of-detail") ? 4 : 3;
     // Those without generated volumes have smaller hypertextures.
     if (strstr(name, "hypertexture"))
         small[2] = "volumes.*.hypertexture.size=8";
     const char *normal[] = {"render.size=[64,48]"};
-    struct pel_scene *scene =
-        scene_is_small() ? pel_scene_load(path, small, 3) : pel_scene_load(path, normal, 1);
+    struct pel_scene *scene = scene_is_small() ? pel_scene_load(path, small, small_count)
+                                               : pel_scene_load(path, normal, 1);
     if (!scene)
         fail_msg("%s", pel_error_message());
     return scene;

@@ -51,8 +51,7 @@ static double share(enum pel_voxel_type type, double edge, void (*change)(struct
     char reason[PEL_SKIP_REASON_BYTES];
     if (!pel_scene_choose_skip(scene, &skip, reason))
         fail_msg("%s", pel_error_message());
-    double percent = -1;
-    sscanf(reason, "%lf %%", &percent);
+    double percent = strtod(reason, NULL);
     assert_int_equal(skip, percent > 95 ? PEL_SKIP_NONE : PEL_SKIP_DISTANCE);
     pel_scene_destroy(scene);
     return percent;
