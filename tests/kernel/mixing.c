@@ -83,7 +83,7 @@ static void test_slabs_and_skips(void **state) {
     scene->render.skip = PEL_SKIP_NONE;
     struct pel_render_statistics all, some;
     struct pel_image *every = judge_render(slabs, scene, &all, "intersection, slabs, none skipped");
-    scene->render.skip = PEL_SKIP_AUTO;
+    scene->render.skip = PEL_SKIP_DISTANCE;
     struct pel_image *skipped = judge_render(slabs, scene, &some, "intersection, slabs");
     assert_pictures_within(skipped, every, 0.01, 0, "skipped");
     assert_true(scene_is_small() || some.samples < all.samples);
