@@ -4,6 +4,7 @@
 // Chebyshev distance in cells. A ray in a cell at distance d leaves the empty cube of 2 d - 1 cells at once
 // (`distance`; Cohen & Sheffer 1994, proximity clouds), or the one cell it is in (`grid`; the DDA of Amanatides &
 // Woo 1987, one cell a leap). Samples stay where they are, so the picture is the same.
+// Included by span.cl.
 #ifndef GRID_CL
 #define GRID_CL
 

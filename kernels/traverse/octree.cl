@@ -5,6 +5,7 @@
 // largest empty node around it, so the descent from the root that a stackless traversal restarts at
 // every step (Laine & Karras 2010 keep a stack for it) is a single look-up, and the ray leaves that
 // node at once. Samples stay where they are, so the picture is the same.
+// Included by span.cl.
 #ifndef OCTREE_CL
 #define OCTREE_CL
 
