@@ -5,6 +5,7 @@
 #include "base/math.h"
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
@@ -50,14 +51,6 @@ static void test_levels(void **state) {
     pel_renderer_destroy(renderer);
 }
 
-static struct pel_image *render(struct pel_renderer *renderer, const struct pel_scene *scene,
-                                struct pel_render_statistics *statistics) {
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, statistics);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
-    return picture;
-}
-
 // A far volume takes a fraction of the memory and of the samples, and looks the same where its
 // field is smooth: the mean over a share w of a wave, interpolated, is off by up to (pi w)^2 (1/6 +
 // 1/8) of its height, which here is less than a hundredth.
@@ -72,9 +65,9 @@ static void test_far(void **state) {
     scene->camera.fov_deg = 4;
     scene->render.step = 0.125;
     struct pel_render_statistics full, coarse, again;
-    struct pel_image *expected = render(renderer, scene, &full);
+    struct pel_image *expected = render_picture(renderer, scene, &full);
     scene->render.lod = PEL_LOD_AUTO;
-    struct pel_image *picture = render(renderer, scene, &coarse);
+    struct pel_image *picture = render_picture(renderer, scene, &coarse);
     assert_int_equal(full.lod.bytes, 0);
     assert_true(coarse.lod.levels[0] >= 1);
     assert_true(coarse.samples * 3 < full.samples * 2);
@@ -84,7 +77,7 @@ static void test_far(void **state) {
     pel_image_destroy(expected);
 
     // The second frame has it all.
-    expected = render(renderer, scene, &again);
+    expected = render_picture(renderer, scene, &again);
     assert_pictures_equal(picture, expected, "again");
     assert_true(again.uploaded_bytes < coarse.uploaded_bytes / 4);
     pel_image_destroy(expected);

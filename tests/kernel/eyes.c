@@ -1,29 +1,9 @@
 // eyes.c - one launch of two eyes makes the pictures of two launches, bit for bit.
 #include "support/judge.h"
 #include "support/picture.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
-
-static struct pel_scene *create(enum pel_stereo_kind kind) {
-    bool small = scene_is_small();
-    struct pel_scene *scene = small ? scene_create(16, 12) : scene_create(64, 48);
-    int size = small ? 8 : 16;
-    double range[2];
-    scene_raw_range(PEL_VOXEL_U8, range);
-    scene_add(scene, scene_volume_waves((int[]){size, size, size}, PEL_VOXEL_U8, 7, 10),
-              scene_transfer_gentle(range, 0.2, 7));
-    scene->background[3] = 1;
-    scene->stereo.kind = kind;
-    return scene;
-}
-
-static struct pel_image *render(struct pel_renderer *renderer, const struct pel_scene *scene,
-                                struct pel_render_statistics *statistics) {
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, statistics);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
-    return picture;
-}
 
 static void destroy_eyes(struct pel_image *eyes[2]) {
     pel_image_destroy(eyes[0]);
@@ -38,7 +18,7 @@ static struct pel_image *render_alone(struct pel_renderer *renderer, const struc
     struct pel_scene alone = *scene;
     alone.stereo.kind = PEL_STEREO_NONE;
     alone.camera = cameras[eye];
-    return render(renderer, &alone, NULL);
+    return render_picture(renderer, &alone, NULL);
 }
 
 // One launch of both eyes makes the pictures that each camera makes by itself, and an interlaced
@@ -54,7 +34,7 @@ static void compare_with_alone(struct pel_renderer *renderer, struct pel_scene *
                                       render_alone(renderer, scene, 1)};
         struct pel_image *expected = pel_stereo_compose(&scene->stereo, alone[0], alone[1]);
         assert_non_null(expected);
-        struct pel_image *picture = render(renderer, scene, NULL);
+        struct pel_image *picture = render_picture(renderer, scene, NULL);
         assert_pictures_equal(picture, expected, what);
         pel_image_destroy(picture);
         pel_image_destroy(expected);
@@ -65,7 +45,7 @@ static void compare_with_alone(struct pel_renderer *renderer, struct pel_scene *
 static void test_one_launch(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = create(PEL_STEREO_TWO_FILES);
+    struct pel_scene *scene = scene_stereo(PEL_STEREO_TWO_FILES);
     scene->render.width -= 3; // tiles and packets that reach beyond the edges
     scene->render.height -= 1;
     compare_with_alone(renderer, scene, "one ray");

@@ -13,15 +13,6 @@ enum { WIDTH = 24, HEIGHT = 18 };
 // Corners, edges and the middle, at odd places.
 static const int regions[][4] = {{0, 0, 7, 5}, {5, 3, 11, 9}, {17, 13, 7, 5}, {0, 7, 24, 1}};
 
-static struct pel_scene *make_scene(void) {
-    struct pel_scene *scene = scene_create(WIDTH, HEIGHT);
-    double range[2];
-    scene_raw_range(PEL_VOXEL_U8, range);
-    scene_add(scene, scene_volume_waves((int[]){9, 8, 7}, PEL_VOXEL_U8, 3, 10),
-              scene_transfer_gentle(range, 0.3, 5));
-    return scene;
-}
-
 static struct pel_image *cut(const struct pel_image *whole, const int region[4]) {
     struct pel_image *part = pel_image_create(region[2], region[3]);
     for (int y = 0; y < region[3]; y++)
@@ -49,7 +40,7 @@ static void check_regions(struct pel_renderer *renderer, struct pel_scene *scene
 static void test_plain(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = make_scene();
+    struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
     check_regions(renderer, scene, "plain");
     scene->instances[0].hidden = true;
     check_regions(renderer, scene, "background");
@@ -61,7 +52,7 @@ static void test_plain(void **state) {
 static void test_interlaced(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = make_scene();
+    struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
     scene->stereo.separation_mm = 2;
     for (int kind = PEL_STEREO_ROW_INTERLACED; kind <= PEL_STEREO_CHECKERBOARD; kind++) {
         scene->stereo.kind = (enum pel_stereo_kind)kind;
@@ -75,7 +66,7 @@ static void test_interlaced(void **state) {
 static void test_supersampled(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = make_scene();
+    struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
     scene->render.jitter = true;
     scene->render.supersampling = (struct pel_supersampling){.n = 2,
                                                              .pattern = PEL_PATTERN_MULTI_JITTERED,
@@ -91,7 +82,7 @@ static void test_refused(void **state) {
     (void)state;
     static const int bad[][4] = {{0, 0, 25, 1}, {24, 0, 1, 1}, {-1, 0, 2, 2}, {0, 0, 0, 4}, {3}};
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = make_scene();
+    struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         memcpy(scene->render.region, bad[i], sizeof scene->render.region);
         assert_null(pel_renderer_render(renderer, scene, NULL, NULL));

@@ -6,19 +6,6 @@
 #include "support/scenes.h"
 #include "support/test.h"
 
-static struct pel_scene *create(enum pel_stereo_kind kind) {
-    bool small = scene_is_small();
-    struct pel_scene *scene = small ? scene_create(16, 12) : scene_create(64, 48);
-    int size = small ? 8 : 16;
-    double range[2];
-    scene_raw_range(PEL_VOXEL_U8, range);
-    scene_add(scene, scene_volume_waves((int[]){size, size, size}, PEL_VOXEL_U8, 7, 10),
-              scene_transfer_gentle(range, 0.2, 7));
-    scene->background[3] = 1;
-    scene->stereo.kind = kind;
-    return scene;
-}
-
 static void render_eyes(struct pel_renderer *renderer, const struct pel_scene *scene,
                         struct pel_render_statistics *statistics, struct pel_image *eyes[2]) {
     if (!pel_renderer_render_eyes(renderer, scene, NULL, statistics, eyes))
@@ -34,7 +21,7 @@ static void destroy_eyes(struct pel_image *eyes[2]) {
 static void test_eyes(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = create(PEL_STEREO_HALF_COLOUR_RED_CYAN);
+    struct pel_scene *scene = scene_stereo(PEL_STEREO_HALF_COLOUR_RED_CYAN);
     pel_image_destroy(judge_render(renderer, scene, NULL, "parallel"));
     scene->stereo.toe_in = true;
     scene->stereo.kind = PEL_STEREO_TOP_BOTTOM;
@@ -49,7 +36,7 @@ static void test_eyes(void **state) {
 static void test_flat(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = create(PEL_STEREO_TWO_FILES);
+    struct pel_scene *scene = scene_stereo(PEL_STEREO_TWO_FILES);
     struct pel_image *eyes[2];
     scene->stereo.flat = true;
     render_eyes(renderer, scene, NULL, eyes);
@@ -70,7 +57,7 @@ static void test_flat(void **state) {
 static void test_swap(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = create(PEL_STEREO_TWO_FILES);
+    struct pel_scene *scene = scene_stereo(PEL_STEREO_TWO_FILES);
     struct pel_image *eyes[2], *swapped[2];
     render_eyes(renderer, scene, NULL, eyes);
     scene->stereo.swap = true;
@@ -129,7 +116,7 @@ static void test_signs(void **state) {
 static void test_statistics(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = create(PEL_STEREO_DUBOIS_RED_CYAN);
+    struct pel_scene *scene = scene_stereo(PEL_STEREO_DUBOIS_RED_CYAN);
     struct pel_render_statistics first, again;
     pel_image_destroy(render_picture(renderer, scene, &first));
     pel_image_destroy(render_picture(renderer, scene, &again));
@@ -172,7 +159,7 @@ static bool watch(double finished, void *user) {
 static void test_progress(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = create(PEL_STEREO_TWO_FILES);
+    struct pel_scene *scene = scene_stereo(PEL_STEREO_TWO_FILES);
     struct watched watched = {0};
     struct pel_render_options options = {.progress = watch, .user = &watched};
     struct pel_image *eyes[2];

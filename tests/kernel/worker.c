@@ -8,21 +8,13 @@
 #include <unistd.h>
 
 #include "support/judge.h"
+#include "support/render.h"
 #include "support/scenes.h"
 #include "support/test.h"
 
 enum { WIDTH = 24, HEIGHT = 16 };
 
 static void wake(void) {
-}
-
-static struct pel_scene *make_scene(void) {
-    struct pel_scene *scene = scene_create(WIDTH, HEIGHT);
-    double range[2];
-    scene_raw_range(PEL_VOXEL_U8, range);
-    scene_add(scene, scene_volume_waves((int[]){9, 8, 7}, PEL_VOXEL_U8, 3, 10),
-              scene_transfer_gentle(range, 0.3, 5));
-    return scene;
 }
 
 static struct pel_worker *make_worker(const struct pel_renderer_options *options) {
@@ -92,9 +84,7 @@ static void assert_works(struct pel_worker *worker, const struct pel_scene *scen
 
 static struct pel_image *render(const struct pel_scene *scene) {
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_image *picture = pel_renderer_render(renderer, scene, NULL, NULL);
-    if (!picture)
-        fail_msg("%s", pel_error_message());
+    struct pel_image *picture = render_picture(renderer, scene, NULL);
     pel_renderer_destroy(renderer);
     return picture;
 }
@@ -105,7 +95,7 @@ static void test_devices(void **state) {
     // Oclgrind simulates one kernel at a time.
     if (scene_is_small())
         skip();
-    struct pel_scene *scene = make_scene();
+    struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
     struct pel_image *expected = render(scene);
     struct pel_renderer_options options = {.device = NULL};
     struct pel_worker *worker = make_worker(&options);
@@ -146,7 +136,7 @@ static rlim_t used_bytes(void) {
 // A scene that the device refuses, and one that there is no host memory for.
 static void test_failures(void **state) {
     (void)state;
-    struct pel_scene *scene = make_scene();
+    struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
     struct pel_image *expected = render(scene);
     struct pel_renderer_options options = {.device = NULL};
     struct pel_worker *worker = make_worker(&options);
@@ -158,7 +148,7 @@ static void test_failures(void **state) {
     assert_null(wait_for(worker, 2, sentence));
     assert_non_null(strstr(sentence, "step"));
     scene->render.step = 0.5;
-    struct pel_scene *usual = make_scene();
+    struct pel_scene *usual = scene_waves(WIDTH, HEIGHT);
     scene->render = usual->render;
     assert_works(worker, scene, 3, expected);
 
@@ -187,7 +177,7 @@ static void test_failures(void **state) {
 // Without a device the worker says so as often as it is asked, and ends when it is told to.
 static void test_no_device(void **state) {
     (void)state;
-    struct pel_scene *scene = make_scene();
+    struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
     const struct pel_renderer_options options = {.device = "no such device"};
     struct pel_worker *worker = make_worker(&options);
     char sentence[PEL_WORKER_SENTENCE];

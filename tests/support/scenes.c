@@ -257,6 +257,28 @@ struct pel_scene *scene_tall(int width, int height) {
     return scene;
 }
 
+struct pel_scene *scene_waves(int width, int height) {
+    struct pel_scene *scene = scene_create(width, height);
+    double range[2];
+    scene_raw_range(PEL_VOXEL_U8, range);
+    scene_add(scene, scene_volume_waves((int[]){9, 8, 7}, PEL_VOXEL_U8, 3, 10),
+              scene_transfer_gentle(range, 0.3, 5));
+    return scene;
+}
+
+struct pel_scene *scene_stereo(enum pel_stereo_kind kind) {
+    bool small = scene_is_small();
+    struct pel_scene *scene = small ? scene_create(16, 12) : scene_create(64, 48);
+    int size = small ? 8 : 16;
+    double range[2];
+    scene_raw_range(PEL_VOXEL_U8, range);
+    scene_add(scene, scene_volume_waves((int[]){size, size, size}, PEL_VOXEL_U8, 7, 10),
+              scene_transfer_gentle(range, 0.2, 7));
+    scene->background[3] = 1;
+    scene->stereo.kind = kind;
+    return scene;
+}
+
 void scene_add_crossing(struct pel_scene *scene) {
     bool small = scene_is_small();
     for (int k = 0; k < 2; k++) {

@@ -72,6 +72,12 @@ struct pel_scene *scene_random(uint64_t seed, bool small);
 // One volume of waves in a scene of that size, tall and thin, so that it can be cut into slabs.
 struct pel_scene *scene_tall(int width, int height);
 
+// One volume of waves in a scene of that size, thin enough to see through.
+struct pel_scene *scene_waves(int width, int height);
+
+// A cube of waves for two eyes, smaller where the device is slow, before an opaque background.
+struct pel_scene *scene_stereo(enum pel_stereo_kind kind);
+
 // Adds two volumes of waves across each other, each in a pose of its own.
 void scene_add_crossing(struct pel_scene *scene);
 
