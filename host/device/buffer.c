@@ -51,6 +51,7 @@ bool pel_buffer_give_back(struct pel_buffer *buffer) {
 void pel_buffer_destroy(struct pel_buffer *buffer) {
     if (!buffer)
         return;
+    pel_device_settle(buffer->device);
     buffer->device->allocated_bytes -= buffer->bytes;
     clReleaseMemObject(buffer->memory);
     free(buffer);

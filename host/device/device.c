@@ -143,7 +143,19 @@ uint64_t pel_device_uploaded_bytes(const struct pel_device *device) {
     return device->uploaded_bytes;
 }
 
+static cl_int wait(struct pel_device *device) {
+    device->busy = false;
+    // A flushed queue looks empty to rusticl of Mesa 22.3, whose clFinish then does not wait.
+    cl_int status = clEnqueueMarkerWithWaitList(device->queue, 0, NULL, NULL);
+    return status == CL_SUCCESS ? clFinish(device->queue) : status;
+}
+
 bool pel_device_finish(struct pel_device *device) {
-    cl_int status = clFinish(device->queue);
+    cl_int status = wait(device);
     return status == CL_SUCCESS || pel_opencl_fail(status, device->info.name);
+}
+
+void pel_device_settle(struct pel_device *device) {
+    if (device->busy)
+        wait(device);
 }

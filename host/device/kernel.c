@@ -78,6 +78,7 @@ struct pel_kernel *pel_kernel_sibling(const struct pel_kernel *kernel, const cha
 void pel_kernel_destroy(struct pel_kernel *kernel) {
     if (!kernel)
         return;
+    pel_device_settle(kernel->device);
     if (kernel->kernel)
         clReleaseKernel(kernel->kernel);
     if (kernel->program)
@@ -108,6 +109,7 @@ bool pel_kernel_launch(struct pel_kernel *kernel, size_t count, size_t group) {
                                            &group, 0, NULL, NULL);
     if (status != CL_SUCCESS)
         return pel_opencl_fail(status, "launching a kernel");
+    kernel->device->busy = true;
     clFlush(kernel->device->queue);
     return true;
 }

@@ -14,6 +14,7 @@ struct pel_device {
     cl_context context;
     cl_command_queue queue;
     uint64_t allocated_bytes, uploaded_bytes;
+    bool busy; // a kernel was launched and not waited for
 };
 
 // One device of one platform, as enumeration finds it.
@@ -24,6 +25,10 @@ struct pel_device_place {
 
 // Finds all devices with their descriptions, in the order users count them.
 int pel_device_enumerate(struct pel_device_info *infos, struct pel_device_place *places);
+
+// Waits for kernels that may use what is about to be released. OpenCL keeps an object until they
+// end, but not the host's memory behind a lent one.
+void pel_device_settle(struct pel_device *device);
 
 // Records a failed OpenCL call; always false (DEVICE; MEMORY is the device's, too).
 bool pel_opencl_fail(cl_int status, const char *what);

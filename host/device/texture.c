@@ -62,6 +62,7 @@ struct pel_texture *pel_texture_create(struct pel_device *device, enum pel_texel
 void pel_texture_destroy(struct pel_texture *texture) {
     if (!texture)
         return;
+    pel_device_settle(texture->device);
     texture->device->allocated_bytes -= texture->bytes;
     clReleaseMemObject(texture->memory);
     free(texture);
