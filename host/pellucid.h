@@ -678,9 +678,13 @@ struct pel_render_settings {
     enum pel_mixing mixing; //
     double step;            // in voxels of the finest visible volume; > 0
     double step_mm;         // the same in millimetres, instead of `step`; 0 = as `step` says
-    enum pel_model model;   // of volumes that have none of their own
-    bool preintegration;    // of all volumes: see pel_instance
-    enum pel_order order;   // back to front no ray ends early
+    // Where volumes are locally thin or smooth, one sample stands for a run of two or four: as long
+    // as what lies in the run cannot vary by more than this optical depth. 0 = samples are evenly
+    // spaced. docs/picture.md, "Adaptive steps", has the rule and docs/quality.md the errors.
+    double adaptive_step;
+    enum pel_model model;  // of volumes that have none of their own
+    bool preintegration;   // of all volumes: see pel_instance
+    enum pel_order order;  // back to front no ray ends early
     double emission_scale; // of model emission, per mm; 0 = 1 over the longest way through a volume
     double phase;          // of the first sample, in steps; 0..1
     double termination;    // a ray ends once its opacity exceeds this; 1 = never
@@ -978,6 +982,7 @@ struct pel_render_statistics {
     uint64_t samples;            // taken inside volumes, all rays together
     uint64_t samples_skipped;    // others, where skipping has found nothing to see
     uint64_t samples_terminated; // and those behind the end of a ray that ended early
+    uint64_t samples_spared;     // and those that others stand for, by adaptive steps
     uint64_t rays;               //
     double refined;              // share of the pixels that got all their rays: 1 unless adaptive
     uint64_t device_bytes;       // allocated on the device at the end of the frame
@@ -1036,6 +1041,7 @@ struct pel_probe_span {
 // A sample of one volume. Between those listed, the others were skipped.
 struct pel_probe_sample {
     int instance, number; // of the sample along the ray, 0 the first one
+    int steps;            // that it stands for; above 1 it lies in the middle of them
     double distance_mm;   // from the ray's origin
     double position[3];   // in the world
     double value;         // in the file's own unit; NaN where absent

@@ -64,4 +64,17 @@ INLINE integer leap(struct active *active, const struct crossing *crossing, inte
     return max(next, i);
 }
 
+// The samples of each ray that lie behind the one at which it has ended.
+INLINE integer samples_behind(const struct crossing *crossing, integer i) {
+    integer count = (integer)(0);
+    for (int c = 0; c < COUNTED(crossing->count); c++) {
+        const struct cursor *cursor = &crossing->cursors[c];
+#if MIXING == MIXING_ORDERED
+        i = cursor->next;
+#endif
+        count += max(cursor->end - max(cursor->first, i), (integer)(0));
+    }
+    return count;
+}
+
 #endif

@@ -90,6 +90,10 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, gradient);
     *out++ = OFFSET(struct part, styled);
     *out++ = OFFSET(struct part, ramp_count);
+    *out++ = OFFSET(struct part, variation);
+    *out++ = OFFSET(struct part, variation_scale);
+    *out++ = OFFSET(struct part, stride_max);
+    *out++ = OFFSET(struct part, stride_nought);
     *out++ = OFFSET(struct part, silhouette);
     *out++ = OFFSET(struct part, ramps);
     *out++ = sizeof(struct world);
@@ -121,6 +125,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, weave_x);
     *out++ = OFFSET(struct world, weave_y);
     *out++ = OFFSET(struct world, pictures);
+    *out++ = OFFSET(struct world, stride_depth);
     *out++ = OFFSET(struct world, balls);
     *out++ = OFFSET(struct world, shadow_step_mm);
     *out++ = OFFSET(struct world, shadow_length_mm);

@@ -56,7 +56,7 @@ INLINE mask mask_keeps(__constant struct world *world, __constant struct part *p
     return part->mask_inverted || part->mask_count == 0 ? ~selected : selected;
 }
 
-#if SKIP != SKIP_NONE || POOL
+#if SKIP != SKIP_NONE || POOL || ADAPTIVE
 // ---- Cells -------------------------------------------------------------------------------------
 
 // Whether values from range.x to range.y may be (`all`: all are) in the part's ranges.

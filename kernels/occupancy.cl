@@ -20,23 +20,23 @@ struct cell_dims {
     int x, y, z;
 };
 
-// The range of the values that samples in cell i may have. A cubic filter reads a voxel more on
+// The range of the values that samples in cells up to `reach` away from cell i may have. A cubic filter reads a voxel more on
 // each side, so its cells have a share in their neighbours; and Catmull & Rom's weights, whose
 // absolute values add up to at most 5/4 along an axis, lead out of the range of the voxels by at
 // most ((5/4)^3 - 1) / 2 of it on either side.
 static float2 reachable(__constant struct part *part, __global const float2 *ranges,
-                        struct cell_dims dims, int i) {
-    if (!(part->filter & FILTERS_CUBIC))
+                        struct cell_dims dims, int i, int reach) {
+    reach += part->filter & FILTERS_CUBIC ? 1 : 0;
+    if (reach == 0)
         return ranges[i];
     const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
     float2 range = (float2)(INFINITY, -INFINITY);
-    for (int n = 0; n < 27; n++) {
-        const int nx = x + n % 3 - 1, ny = y + n / 3 % 3 - 1, nz = z + n / 9 - 1;
-        if (nx < 0 || ny < 0 || nz < 0 || nx >= dims.x || ny >= dims.y || nz >= dims.z)
-            continue;
-        const float2 near = ranges[nz * part->cell_slice + ny * part->cell_row + nx];
-        range = (float2)(fmin(range.x, near.x), fmax(range.y, near.y));
-    }
+    for (int nz = max(z - reach, 0); nz <= min(z + reach, dims.z - 1); nz++)
+        for (int ny = max(y - reach, 0); ny <= min(y + reach, dims.y - 1); ny++)
+            for (int nx = max(x - reach, 0); nx <= min(x + reach, dims.x - 1); nx++) {
+                const float2 near = ranges[nz * part->cell_slice + ny * part->cell_row + nx];
+                range = (float2)(fmin(range.x, near.x), fmax(range.y, near.y));
+            }
     const float beyond =
         part->filter == FILTERS_CATMULL_ROM ? (range.y - range.x) * (61.0f / 128.0f) : 0.0f;
     return range.x > range.y ? range : (float2)(range.x - beyond, range.y + beyond);
@@ -93,7 +93,7 @@ static uchar find_cell(__constant struct world *world, __constant struct part *p
     if (part->filter & FILTERS_CUBIC) {
         const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
                                        (int)count / part->cell_slice};
-        range = reachable(part, ranges + part->ranges, dims, i);
+        range = reachable(part, ranges + part->ranges, dims, i, 0);
     }
     return occupied(part, range, counts + part->visible, linear) ? 0 : empty;
 }
@@ -148,37 +148,6 @@ static void spread(__constant struct part *part, __global const uchar *in, __glo
     spread_one_way(in, out, row, true);
 }
 
-// Work-item i joins what the eight children of node i of a level found. Nothing else writes to the
-// node's first cell, and only this reads it. What lies outside the part counts as empty.
-static void merge(__constant struct part *part, __global uchar *cells, struct cell_dims dims, int i,
-                  int level) {
-    const int size = 1 << level, half_size = size >> 1;
-    const int columns = (dims.x + size - 1) >> level, rows = (dims.y + size - 1) >> level;
-    const int x = i % columns * size, y = i / columns % rows * size, z = i / columns / rows * size;
-    if (z >= dims.z)
-        return;
-    bool empty = true;
-    for (int child = 0; child < 8; child++) {
-        const int cx = x + (child & 1 ? half_size : 0), cy = y + (child & 2 ? half_size : 0),
-                  cz = z + (child & 4 ? half_size : 0);
-        if (cx < dims.x && cy < dims.y && cz < dims.z)
-            empty = empty && cells[cz * part->cell_slice + cy * part->cell_row + cx] >= level;
-    }
-    if (empty)
-        cells[z * part->cell_slice + y * part->cell_row + x] = (uchar)(level + 1);
-}
-
-// One more than the level of the largest empty node around cell i, whose first cells know.
-static uchar name_node(__constant struct part *part, __global const uchar *cells,
-                       struct cell_dims dims, int i) {
-    const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
-    int level = 0;
-    while (cells[(z >> level << level) * part->cell_slice + (y >> level << level) * part->cell_row +
-                 (x >> level << level)] > level)
-        level++;
-    return (uchar)level;
-}
-
 // 1 when brick i, of 2^bits cells along a side, has a cell that is not empty.
 static uchar find_brick(__constant struct part *part, __global const uchar *cells,
                         struct cell_dims dims, int i, int bits) {
@@ -198,6 +167,11 @@ static uchar find_brick(__constant struct part *part, __global const uchar *cell
 
 #if SKIP == SKIP_BLOCKS
 #include "bins.cl"
+#endif
+
+#include "nodes.cl"
+#if ADAPTIVE
+#include "stride_cells.cl"
 #endif
 
 // One pass over the `count` cells of a part, from `in` to `out`, in which empty cells hold `empty`
@@ -226,11 +200,17 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     }
 #endif
     out += part->cells;
+#if ADAPTIVE
+    if (pass == PASS_STRIDE) {
+        out[i] = find_stride(world, part, ranges, visible, dims, (int)i);
+        return;
+    }
+#endif
 #if SKIP == SKIP_BLOCKS
     if (pass == PASS_VISIBLE)
         out[i] = visible_bins(part, visible + part->visible);
     else if (pass == PASS_CORNER)
-        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0), visible + part->visible, linear);
+        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0, 0), visible + part->visible, linear);
     else if (pass >= PASS_BINS)
         out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS), empty);
     else

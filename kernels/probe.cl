@@ -11,7 +11,7 @@
 
 __kernel void probe(__constant struct world *world, TABLE_SPACE const uint *table,
                     __global const uchar *cells, const int x, const int y,
-                    __global struct probe *probe, __global struct probe_sample *samples,
+                    __global struct probe *probe, __global struct probe_sample *samples STRIDE_PARAMETER,
                     MEMORY_PARAMETERS) {
     struct ray ray = camera_ray(world, &world->camera, x + 0.5f, y + 0.5f);
 #if JITTER
@@ -22,6 +22,7 @@ __kernel void probe(__constant struct world *world, TABLE_SPACE const uint *tabl
     crossing.log = samples;
     crossing.logged = 0;
     find_crossing(world, cells, &ray, &crossing);
+    BEGIN_STRIDES(crossing);
     probe->part_count = crossing.count;
     for (int c = 0; c < crossing.count; c++) {
         const struct cursor *cursor = &crossing.cursors[c];

@@ -4,8 +4,8 @@
 
 #include "span.cl"
 
-INLINE void log_sample(struct crossing *crossing, int c, int i, float x, float y, float z,
-                       float raw, float strength, float before) {
+INLINE void log_sample(struct crossing *crossing, int c, int i, int steps, float x, float y,
+                       float z, float raw, float strength, float before) {
     if (crossing->logged < PROBE_SAMPLE_MAX) {
         __global struct probe_sample *sample = &crossing->log[crossing->logged];
         sample->x = x;
@@ -17,6 +17,7 @@ INLINE void log_sample(struct crossing *crossing, int c, int i, float x, float y
         sample->before = before;
         sample->part = crossing->parts[c];
         sample->number = i;
+        sample->steps = steps;
     }
     crossing->logged++;
 }

@@ -13,6 +13,11 @@
 #include "shade.cl"
 #include "span.cl"
 #include "style.cl"
+#if ADAPTIVE
+#include "stride.cl"
+#else
+#include "even.cl"
+#endif
 #if DEBUG
 #include "debug.cl"
 #endif
@@ -32,19 +37,6 @@
 #ifndef DEBUG
 #define DEBUG 0 // 1: a number of each ray in place of its light
 #endif
-
-// The samples of each ray that lie behind the one at which it has ended.
-INLINE integer samples_behind(const struct crossing *crossing, integer i) {
-    integer count = (integer)(0);
-    for (int c = 0; c < COUNTED(crossing->count); c++) {
-        const struct cursor *cursor = &crossing->cursors[c];
-#if MIXING == MIXING_ORDERED
-        i = cursor->next;
-#endif
-        count += max(cursor->end - max(cursor->first, i), (integer)(0));
-    }
-    return count;
-}
 
 // Follows the rays and returns the light they gather. Adds the samples taken to *samples.
 INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE const uint *table,
@@ -71,6 +63,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
     struct light *const layer = &light;
 #endif
 
+    struct runs runs = runs_begin();
     while (any_lane(alive)) {
 #if MIXING == MIXING_ORDERED
         const real place = order_nearest(crossing);
@@ -80,6 +73,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         if (any_lane(alive & MASK(i >= active.until)))
             join_active(world, cells, &active, crossing, i, alive);
 #endif
+        const integer length = find_run(world, crossing, &runs, &i, alive);
         bool seen = false;
         struct mixture mixture = mix_begin();
         for (int a = 0; a < COUNTED(active.count); a++) {
@@ -91,13 +85,13 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             present &= MASK(order_place(crossing, c) == place);
             i = cursor->next;
 #elif CAPACITY > 1
-            present &= MASK(i >= cursor->next) & MASK(i < cursor->end);
+            present &= MASK(RUN_LAST(i, length) >= cursor->next) & MASK(i < cursor->end);
 #endif
 #if CAPACITY > 1
             if (!any_lane(present))
                 continue;
 #endif
-            const real t = TO_REAL(cursor_clamp(cursor, i));
+            const real t = RUN_PLACE(TO_REAL(cursor_clamp(cursor, i)), length, present);
 #if MIXING == MIXING_ORDERED
             cursor->next -= present;
 #endif
@@ -116,11 +110,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             const mask reached = present;
             present &= mask_keeps(world, part, MEMORY_ARGUMENTS, x, y, z);
             if (!any_lane(present)) {
-                pass_over(part, cells, cursor, i, reached);
+                pass_over(part, cells, cursor, RUN_LAST(i, length), reached);
                 continue;
             }
 #endif
             *samples -= present;
+            COUNT_SPARED(crossing, length, present);
             const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
 #if MODELS
             if (part->model != MODEL_ABSORPTION) {
@@ -134,10 +129,10 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             real strength = entry_strength(table, &entry);
             const mask visible = present & MASK(strength > 0.0f);
 #if PROBE
-            log_sample(crossing, c, i, x, y, z, sample.raw, visible ? strength : 0, layer->a);
+            log_sample(crossing, c, i, length, x, y, z, sample.raw, visible ? strength : 0, layer->a);
 #endif
             if (!any_lane(visible)) {
-                pass_over(part, cells, cursor, i, present);
+                pass_over(part, cells, cursor, RUN_LAST(i, length), present);
                 continue;
             }
             seen = true;
@@ -160,7 +155,8 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #if PROBE
             log_colour(crossing, r, g, b);
 #endif
-            mix_add(&mixture, layer, part, r, g, b, CHOOSE(zero, strength, visible));
+            mix_add(&mixture, layer, part, r, g, b,
+                    CHOOSE(zero, RUN_STRENGTH(strength, length), visible));
         }
 
 #if MIXING == MIXING_ORDERED
@@ -168,13 +164,13 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         if (seen)
             alive &= MASK(light.a <= world->termination);
 #else
-        i -= alive; // one on, where the ray still runs
+        i = RUN_NEXT(i, length, alive); // on, where the ray still runs
         if (seen) {
             mix_end(world, &mixture, layer);
 #if MODELS
             gathered_join(&gathered, &light);
 #endif
-            NOTE_DEPTH(crossing, &light, TO_REAL(i - 1));
+            NOTE_DEPTH(crossing, &light, RUN_MIDDLE(i, length));
             alive &= MASK(light.a <= world->termination);
         } else {
             i = CHOOSE(i, leap(&active, crossing, i), alive);
@@ -193,7 +189,8 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 // premultiplied RGBA, rows from the top, and each packet's numbers of samples (SAMPLE_COUNTS).
 __kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
                      __global float4 *picture, __global uint *sample_counts, const uint first_tile,
-                     __global const uchar *cells RAY_PARAMETERS, MEMORY_PARAMETERS) {
+                     __global const uchar *cells RAY_PARAMETERS STRIDE_PARAMETER,
+                     MEMORY_PARAMETERS) {
     const uint packets_per_row = TILE_PX / PACKET_W;
     const uint packets_per_tile = packets_per_row * (TILE_PX / PACKET_H);
     const uint packet = get_global_id(0) % packets_per_tile;
@@ -217,6 +214,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
         return;
     struct crossing crossing;
     find_crossing(world, cells, &ray, &crossing);
+    BEGIN_STRIDES(crossing);
     integer samples = (integer)(0);
     struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)};
 #if MODELS & MODELS_EMISSION
@@ -237,6 +235,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     counts[SAMPLES_TAKEN] += (uint)sum_lanes(samples);
     counts[SAMPLES_POSSIBLE] += (uint)sum_lanes(crossing.possible);
     counts[SAMPLES_BEHIND] += (uint)sum_lanes(crossing.behind);
+    counts[SAMPLES_SPARED] += SPARED(crossing);
 #if DEBUG
     light.r = debug_number(world, cells, &crossing, samples);
 #endif

@@ -14,7 +14,10 @@
 #if MASKED
 #include "mask.cl"
 #endif
-#if SKIP != SKIP_NONE || POOL
+#ifndef ADAPTIVE
+#define ADAPTIVE 0 // 1: samples are farther apart where volumes are locally thin or smooth
+#endif
+#if SKIP != SKIP_NONE || POOL || ADAPTIVE
 #include "occupancy.cl"
 #endif
 #if SKIP == SKIP_NONE
@@ -69,6 +72,10 @@ struct crossing {
 #endif
     integer possible; // samples of each ray, were all of them taken
     integer behind;   // of these, those behind the end of a ray that ended early
+#if ADAPTIVE
+    __global const uchar *strides; // a byte for each cell of each part
+    integer spared;                // samples that others stand for
+#endif
 #if SHADING || CLIP
     struct ray ray;
 #endif
@@ -215,7 +222,9 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
         if (any_lane(MASK(cursor.first < cursor.end)))
             cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
 #endif
-        if (any_lane(MASK(cursor.next < cursor.end))) {
+        // With runs of samples all parts count, so that these are the same whatever is skipped.
+        const integer seen = ADAPTIVE ? cursor.first : cursor.next;
+        if (any_lane(MASK(seen < cursor.end))) {
             const int c = CAPACITY == 1 ? 0 : crossing->count;
             crossing->cursors[c] = cursor;
             crossing->parts[c] = p;

@@ -157,6 +157,8 @@ static int print_json(struct run *run) {
                         json_integer((json_int_t)statistics->samples_skipped));
     json_object_set_new(object, "samples_terminated",
                         json_integer((json_int_t)statistics->samples_terminated));
+    json_object_set_new(object, "samples_spared",
+                        json_integer((json_int_t)statistics->samples_spared));
     json_object_set_new(object, "device_bytes", json_integer((json_int_t)statistics->device_bytes));
     json_object_set_new(object, "uploaded_bytes",
                         json_integer((json_int_t)statistics->uploaded_bytes));

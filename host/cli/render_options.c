@@ -25,6 +25,7 @@ enum {
     KEY_FILTER,
     KEY_GRADIENT,
     KEY_TERMINATION,
+    KEY_ADAPTIVE_STEP,
     KEY_PHASE,
     KEY_SKIP,
     KEY_SUPERSAMPLE,
@@ -147,6 +148,10 @@ static const struct argp_option argp_options[] = {
      0},
     {"step", KEY_STEP, "N", 0, "Distance of samples, in voxels of the finest volume", 0},
     {"step-mm", KEY_STEP_MM, "MM", 0, "The same in millimetres", 0},
+    {"adaptive-step", KEY_ADAPTIVE_STEP, "DEPTH", 0,
+     "Take longer steps where volumes are locally thin or smooth: where they vary by no more than "
+     "this optical depth, such as 0.1",
+     0},
     {"phase", KEY_PHASE, "X", 0, "Place of the first sample, in steps, 0 to 1", 0},
     {"termination", KEY_TERMINATION, "X", 0, "End a ray once its opacity exceeds this; 1 for never",
      0},
@@ -358,6 +363,9 @@ static error_t parse_scene_key(int key, const char *argument, struct render_opti
     case KEY_STEP_MM:
         overrides_add(&options->overrides, "render.step", "null");
         good = add_number(options, "--step-mm", "render.step_mm", argument);
+        break;
+    case KEY_ADAPTIVE_STEP:
+        good = add_number(options, "--adaptive-step", "render.adaptive_step", argument);
         break;
     case KEY_TERMINATION:
         good = add_number(options, "--termination", "render.termination", argument);

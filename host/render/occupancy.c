@@ -63,7 +63,12 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
         copy->mask_part = part->mask_part;
         copy->mask_inverted = part->mask_inverted;
         copy->mask_range_count = part->mask_range_count;
+        copy->variation = part->variation;
+        copy->variation_scale = part->variation_scale;
+        copy->stride_max = part->stride_max;
+        copy->stride_nought = part->stride_nought;
     }
+    key->stride_depth = world->adaptive ? world->bytes.stride_depth : 0;
     if (world->masked)
         key->masks = pel_mask_hash(world);
 }
@@ -184,13 +189,33 @@ static bool find_kernel(struct pel_occupancy *occupancy, const struct pel_world 
                         const struct pel_kernel *render, enum pel_skip skip) {
     bool blocks = skip == PEL_SKIP_BLOCKS;
     if (occupancy->kernel && occupancy->knows_blocks >= blocks &&
-        occupancy->knows_masks >= world->masked)
+        occupancy->knows_masks >= world->masked && occupancy->knows_strides >= world->adaptive)
         return true;
     pel_kernel_destroy(occupancy->kernel);
     occupancy->kernel = pel_kernel_sibling(render, "occupancy");
     occupancy->knows_blocks = blocks;
     occupancy->knows_masks = world->masked;
+    occupancy->knows_strides = world->adaptive;
     return occupancy->kernel != NULL;
+}
+
+// Finds how long runs of samples may be in the cells of all parts.
+static bool find_strides(struct pel_occupancy *occupancy, struct pel_device *device,
+                         const struct pel_world *world) {
+    if (!world->adaptive)
+        return true;
+    if (occupancy->stride_count < world->cell_count) {
+        pel_buffer_destroy(occupancy->strides);
+        occupancy->stride_count = world->cell_count;
+        occupancy->strides = pel_buffer_create(device, world->cell_count, "strides");
+    }
+    bool good = occupancy->strides != NULL;
+    for (int p = 0; good && p < world->bytes.part_count; p++) {
+        size_t cells[3], count;
+        good = pel_pass_set_part(occupancy, world, p, cells, &count) &&
+               pel_pass_run(occupancy, occupancy->cells, occupancy->strides, count, PASS_STRIDE);
+    }
+    return good;
 }
 
 // From the empty cells of all parts to what the kernel is given. `same` tells that nothing but
@@ -212,7 +237,7 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
                           struct pel_residency *residency, const struct pel_scene *scene,
                           const struct pel_layout_limits *limits, const struct pel_kernel *render,
                           enum pel_skip skip) {
-    if ((skip == PEL_SKIP_NONE && !world->pool) || world->bytes.part_count == 0)
+    if ((skip == PEL_SKIP_NONE && !world->pool && !world->adaptive) || world->bytes.part_count == 0)
         return make_room(occupancy, device, 1);
     double start_ms = pel_clock_ms();
     bool changed = false;
@@ -233,6 +258,7 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
     memcpy(&occupancy->key, &key, sizeof key);
     pel_hierarchy_finish(&occupancy->hierarchy);
     bool good = occupy(occupancy, world, world_buffer, residency) &&
+                find_strides(occupancy, device, world) &&
                 (!world->pool || fill_pool(occupancy, world, residency, scene, limits)) &&
                 make_map(occupancy, device, world, &bricks, start_ms, same);
     if (!good)
@@ -242,7 +268,7 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
 
 uint64_t pel_occupancy_bytes(const struct pel_occupancy *occupancy) {
     return pel_buffer_bytes(occupancy->cells) + pel_buffer_bytes(occupancy->scratch) +
-           pel_buffer_bytes(occupancy->visible.buffer) +
+           pel_buffer_bytes(occupancy->visible.buffer) + pel_buffer_bytes(occupancy->strides) +
            pel_buffer_bytes(occupancy->hierarchy.nodes) +
            pel_buffer_bytes(occupancy->blocks.buffer);
 }
@@ -269,5 +295,6 @@ void pel_occupancy_finish(struct pel_occupancy *occupancy) {
     pel_block_map_finish(&occupancy->blocks);
     pel_buffer_destroy(occupancy->cells);
     pel_buffer_destroy(occupancy->scratch);
+    pel_buffer_destroy(occupancy->strides);
     memset(occupancy, 0, sizeof *occupancy);
 }

@@ -18,16 +18,19 @@ struct pel_occupancy_key {
     enum pel_skip skip;               // for which
     struct pel_brick_settings bricks; // of `bvh` and `blocks`
     uint64_t masks;                   // a hash of what masks select, and of where
+    float stride_depth;               // 0: no strides
 };
 
 // Zero-initialise.
 struct pel_occupancy {
     struct pel_kernel *kernel;
-    bool knows_blocks, knows_masks; // what there is in its program
-    struct pel_mirror visible;      // counts of visible entries
+    bool knows_blocks, knows_masks, knows_strides; // what there is in its program
+    struct pel_mirror visible;                     // counts of visible entries
     struct pel_buffer *cells,
-        *scratch;                   // a byte for each cell of each part, and room to work in
-    size_t cell_count;              // room in both
+        *scratch;               // a byte for each cell of each part, and room to work in
+    size_t cell_count;          // room in both
+    struct pel_buffer *strides; // likewise, how long runs of samples may be; NULL: never asked for
+    size_t stride_count;        // room in it
     struct pel_hierarchy hierarchy; // for `bvh`
     struct pel_block_map blocks;    // for `blocks`
     struct pel_occupancy_key key;   // what they are for; part_count 0 = nothing

@@ -98,6 +98,7 @@ static void read_sample(struct pel_probe_sample *out, const struct probe_sample 
     pel_matrix_point(out->position, &world_from_voxel, voxel);
     out->instance = instance;
     out->number = sample->number;
+    out->steps = sample->steps;
     double squared = 0;
     for (int i = 0; i < 3; i++)
         squared += pow(out->position[i] - origin[i], 2);
@@ -133,13 +134,15 @@ static bool read_record(struct pel_probe *probe, const struct record *record,
 static bool set_arguments(struct pel_kernel *kernel, const struct pel_probe_inputs *inputs, int x,
                           int y, const struct pel_buffer *ray, const struct pel_buffer *samples) {
     int index = 0;
-    bool good = pel_kernel_set_buffer(kernel, index++, inputs->world_buffer) &&
-                pel_kernel_set_buffer(kernel, index++, inputs->tables) &&
-                pel_kernel_set_buffer(kernel, index++, inputs->cells) &&
-                pel_kernel_set_u32(kernel, index++, (uint32_t)x) &&
-                pel_kernel_set_u32(kernel, index++, (uint32_t)y) &&
-                pel_kernel_set_buffer(kernel, index++, ray) &&
-                pel_kernel_set_buffer(kernel, index++, samples);
+    bool good =
+        pel_kernel_set_buffer(kernel, index++, inputs->world_buffer) &&
+        pel_kernel_set_buffer(kernel, index++, inputs->tables) &&
+        pel_kernel_set_buffer(kernel, index++, inputs->cells) &&
+        pel_kernel_set_u32(kernel, index++, (uint32_t)x) &&
+        pel_kernel_set_u32(kernel, index++, (uint32_t)y) &&
+        pel_kernel_set_buffer(kernel, index++, ray) &&
+        pel_kernel_set_buffer(kernel, index++, samples) &&
+        (!inputs->world->adaptive || pel_kernel_set_buffer(kernel, index++, inputs->strides));
     return good && pel_residency_bind(inputs->residency, kernel, index, inputs->world->voxels);
 }
 

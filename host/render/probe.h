@@ -12,7 +12,7 @@ struct pel_probe_inputs {
     struct pel_device *device;
     const struct pel_kernel *render;
     const struct pel_residency *residency;
-    const struct pel_buffer *world_buffer, *tables, *cells;
+    const struct pel_buffer *world_buffer, *tables, *cells, *strides; // NULL: none
     const struct pel_scene *scene;
     const struct pel_world *world;
 };

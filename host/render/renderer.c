@@ -87,6 +87,8 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
         index++; // the ray's number is set for each pass
         good = good && pel_kernel_set_buffer(kernel, index++, renderer->resolve.refined);
     }
+    if (variant->adaptive)
+        good = good && pel_kernel_set_buffer(kernel, index++, renderer->occupancy.strides);
     return good && pel_residency_bind(&renderer->residency, kernel, index, variant->voxels);
 }
 
@@ -140,10 +142,11 @@ static void count_samples(struct pel_renderer *renderer, const struct pel_world 
             statistics->stereo.eye_samples[i / tiling->packets_per_tile % pictures] +=
                 counts[i][SAMPLES_TAKEN];
             statistics->samples_terminated += counts[i][SAMPLES_BEHIND];
+            statistics->samples_spared += counts[i][SAMPLES_SPARED];
             possible += counts[i][SAMPLES_POSSIBLE];
         }
-        statistics->samples_skipped =
-            possible - statistics->samples - statistics->samples_terminated;
+        statistics->samples_skipped = possible - statistics->samples -
+                                      statistics->samples_terminated - statistics->samples_spared;
     }
     free(counts);
 }
@@ -425,6 +428,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
         .world_buffer = renderer->world.buffer,
         .tables = renderer->tables.buffer,
         .cells = pel_occupancy_map(&renderer->occupancy),
+        .strides = renderer->occupancy.strides,
         .scene = &seen,
         .world = &world,
     };

@@ -11,6 +11,7 @@
 #include "world/mask.h"
 #include "world/model.h"
 #include "world/step.h"
+#include "world/stride.h"
 
 enum { PICTURE_MAX = 32768 };
 
@@ -54,9 +55,9 @@ bool pel_settings_check(const struct pel_scene *scene) {
         if (!isfinite(scene->instances[k].priority))
             return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': priority %g, must be finite",
                             scene->instances[k].name, scene->instances[k].priority);
-    return pel_model_check(scene) && pel_clip_check(scene) && pel_mask_check(scene) &&
-           pel_detail_check(settings) && pel_bricks_check(&settings->bricks) &&
-           check_supersampling(&settings->supersampling);
+    return pel_model_check(scene) && pel_stride_check(scene) && pel_clip_check(scene) &&
+           pel_mask_check(scene) && pel_detail_check(settings) &&
+           pel_bricks_check(&settings->bricks) && check_supersampling(&settings->supersampling);
 }
 
 bool pel_settings_check_options(const struct pel_renderer_options *options) {

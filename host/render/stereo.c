@@ -46,6 +46,7 @@ static void add_statistics(struct pel_render_statistics *sum,
     both.samples += sum->samples;
     both.samples_skipped += sum->samples_skipped;
     both.samples_terminated += sum->samples_terminated;
+    both.samples_spared += sum->samples_spared;
     both.rays += sum->rays;
     both.uploaded_bytes += sum->uploaded_bytes;
     both.prepare_ms += sum->prepare_ms;

@@ -29,6 +29,7 @@ struct pel_variant {
     bool jitter;        // every ray has a phase of its own
     bool debug;         // a number of each ray in place of its light
     bool live;          // some volume is worked out at every sample
+    bool adaptive;      // some samples stand for others
     bool probe;         // one ray that writes down what it meets
     bool table_global;  // the tables do not fit into constant memory
 };

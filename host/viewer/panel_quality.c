@@ -9,6 +9,7 @@ static void draw_march(struct pel_state *state) {
         pel_panel_slide_log(state, "step", &render->step_mm, 0.01, 20, "%.3g mm");
     else
         pel_panel_slide_log(state, "step", &render->step, 0.1, 4, "%.2f voxels");
+    pel_panel_slide(state, "longer where it varies by", &render->adaptive_step, 0, 0.2, "%.3f");
     pel_panel_slide(state, "first sample at", &render->phase, 0, 1, "%.2f steps");
     if (pel_widget_check("jitter", &render->jitter))
         pel_panel_changed(state, "jitter");

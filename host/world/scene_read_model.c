@@ -50,12 +50,14 @@ static void write_step(struct pel_scene_writer *writer, json_t *object, double s
 bool pel_scene_read_march(struct pel_render_settings *render, const struct pel_scene_node *node) {
     int order = (int)render->order;
     double quality = 0;
+    const struct pel_range depth_range = {.low = 0, .high = 1000};
     bool good = read_optical_model(&render->model, node) &&
                 pel_node_get_name(node, "order", order_names, &order) &&
                 pel_node_get_number(node, "emission_scale", &pel_positive_number,
                                     &render->emission_scale) &&
                 pel_node_get_bool(node, "preintegration", &render->preintegration) &&
                 pel_scene_read_quality(node, &quality) &&
+                pel_node_get_number(node, "adaptive_step", &depth_range, &render->adaptive_step) &&
                 pel_scene_read_step(node, &render->step, &render->step_mm);
     render->order = (enum pel_order)order;
     return good;
@@ -68,6 +70,7 @@ void pel_scene_write_march(struct pel_scene_writer *writer, json_t *object) {
     pel_write_number(writer, object, "emission_scale", render->emission_scale, 0);
     pel_write_bool(writer, object, "preintegration", render->preintegration, false);
     write_step(writer, object, render->step, render->step_mm, writer->usual->render.step);
+    pel_write_number(writer, object, "adaptive_step", render->adaptive_step, 0);
 }
 
 // A value by itself, or an object.

@@ -18,6 +18,7 @@
 #include "world/model.h"
 #include "world/secondary.h"
 #include "world/step.h"
+#include "world/stride.h"
 #include "world/strength.h"
 #include "world/style.h"
 
@@ -304,6 +305,7 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->reconstruction = (i32)supersampling->filter;
     bytes->seed = supersampling->seed;
     bytes->contrast = (float)supersampling->adaptive;
+    bytes->stride_depth = (float)settings->adaptive_step;
     bytes->debug =
         (i32)settings->debug; // the numbers of shared/variant.h are in the order of the enum
 }
@@ -351,6 +353,8 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         world->styled |= pattern.styled || pattern.gradient != GRADIENT_CENTRAL;
         pattern.rank = (float)pel_mixing_rank(scene, instance);
         pel_clip_fill_part(world, &pattern, scene, instance, centre);
+        if (!pel_stride_fill_part(world, &pattern, scene, instance, &memo->tables[k]))
+            return false;
         // Only media are mixed.
         pattern.medium =
             pattern.model == MODEL_ABSORPTION ? world->bytes.medium_count++ : MEDIUM_NONE;
@@ -406,6 +410,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
 
     world->supersampling = !scene->render.debug && is_supersampled(&scene->render.supersampling);
     world->jitter = scene->render.jitter;
+    world->adaptive = pel_stride_is_on(scene);
     world->models = pel_model_kernel(scene);
     // A volume on its own, or one blended at a time, is looked up as opacity; slabs of one count as
     // several.

@@ -31,6 +31,7 @@ struct pel_world {
     bool styled;        // other gradients than central differences, or opacity that follows them
     bool supersampling; // several rays a pixel, or one that does not go through its centre
     bool jitter;        // every ray has a phase of its own
+    bool adaptive;      // some samples may stand for others
     bool probe;         // one ray is to write down what it meets
     double centre[3];   // world millimetres of the origin of the kernels' world
     int part_total;     // parts, with those of masks behind the ones that are shown

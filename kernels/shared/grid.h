@@ -27,11 +27,14 @@
 // For blocks (shared/block.h), PASS_VISIBLE finds the bins of the table of which something can be seen and PASS_CORNER
 // whether the value around the part's first corner can, each in one byte; PASS_BINS + b, the bins that the values of each
 // such brick touch; and PASS_SEEN keeps those of the stored sub-blocks in which some cell is not empty.
+//
+// PASS_STRIDE finds how long a run of samples may be that begins in each cell (kernels/stride_cells.cl).
 #define PASS_OCCUPY 3
 #define PASS_NAME 4
 #define PASS_VISIBLE 5
 #define PASS_CORNER 6
 #define PASS_SEEN 7
+#define PASS_STRIDE 8
 #define PASS_MERGE 16
 #define PASS_BRICK 32
 #define PASS_BINS 48

@@ -26,7 +26,7 @@ struct probe_sample {
     float before;   // opacity that the ray had gathered
     i32 part;
     i32 number; // of the sample
-    i32 pad;
+    i32 steps;  // that it stands for, itself the first
 };
 
 SHARED_ASSERT(sizeof(struct probe_sample) == 48, probe_sample_size);

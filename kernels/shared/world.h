@@ -88,11 +88,15 @@ struct part {
     i32 mask_part, mask_count; // the parts whose values decide where it is shown; 0: everywhere
     i32 mask_range_count;      // ranges of values that are selected
     i32 mask_inverted;         // 1: shown where none is
+    u32 variation;         // index of the first variation of its table (kernels/stride_cells.cl),
+    float variation_scale; // of one for each entry of what is this many entries here
+    i32 stride_max;        // the longest run of samples that may have one stand for them: 1, 2 or 4
+    i32 stride_nought;     // 1: something may appear or change anywhere; variation counts from nothing
     float4 silhouette;          // base, strength and exponent; and the factor before all ramps
     float4 ramps[GRADIENT_RAMPS]; // start, 1 / width, in ranges of the table per mm; rise of the factor
 };
 
-SHARED_ASSERT(sizeof(struct part) == 448, part_size);
+SHARED_ASSERT(sizeof(struct part) == 464, part_size);
 
 struct world {
     struct camera camera, second; // with EYES_ONE, the second is not looked at
@@ -117,7 +121,7 @@ struct world {
     i32 medium_count; // instances that are mixed
     i32 weave_x, weave_y; // EYES_WOVEN: pixels where weave_x * x + weave_y * y is odd are the second eye's
     i32 pictures; // above each other, one of each eye: 1 or 2
-    i32 pad[1];
+    float stride_depth; // how much optical depth a run of samples may vary
     float shadow_step_mm, shadow_length_mm, shadow_strength;
     float occlusion_step_mm, occlusion_radius_mm, occlusion_strength;
     i32 occlusion_count; // directions,
@@ -129,7 +133,7 @@ struct world {
 };
 
 SHARED_ASSERT(sizeof(struct world) ==
-                  368 + 48 * LAMP_MAX + (16 + 448) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
+                  368 + 48 * LAMP_MAX + (16 + 464) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
               world_size);
 
 #endif

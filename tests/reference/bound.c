@@ -194,6 +194,57 @@ static struct doubt doubt_body(const struct spot *spot, int k, const struct refe
     return doubt;
 }
 
+// True when rounding decides about a sample at an end of a body that is up to a run away from t:
+// then the runs there may be others, too.
+static bool has_open_end(const struct reference *reference, const struct reference_path *path,
+                         int k, double t, double slack_mm) {
+    struct reference_span span = reference_clip_span(reference, path, k);
+    for (int n = 0; n < 2; n++) {
+        double end = n ? span.t_out : span.t_in;
+        double number = (end - path->t_near) / reference->step_mm - path->phase;
+        if (fabs(number - rint(number)) * reference->step_mm <= slack_mm &&
+            fabs(end - t) <= 4 * reference->step_mm)
+            return true;
+    }
+    return false;
+}
+
+// True when rounding decides which cell a sample up to a run away from t lies in, so that runs may
+// be others there.
+static bool has_open_cell(const struct reference *reference, const struct reference_path *path,
+                          int k, double t, double slack_mm) {
+    double number = rint((t - path->t_near) / reference->step_mm - path->phase);
+    for (int n = -4; n <= 4; n++) {
+        double p_voxel[3];
+        reference_point_at(p_voxel, &path->rays[k],
+                           reference_sample_t(reference, path, number + n));
+        for (int c = 0; c < 3; c++) {
+            double away = p_voxel[c] + 1 - 4 * rint((p_voxel[c] + 1) / 4);
+            if (fabs(away) * spacing_along(&reference->bodies[k], c) <= slack_mm)
+                return true;
+        }
+    }
+    return false;
+}
+
+// What runs may have been others adds to doubts: what a run may vary by, once for each body.
+static void doubt_runs(struct doubt *doubts, const struct reference *reference,
+                       const struct reference_path *path, const struct reference_stop *stop,
+                       double rounding) {
+    double depth = reference->scene->render.adaptive_step;
+    bool open = false;
+    for (int n = 0; n < stop->count && depth > 0; n++) {
+        double slack_mm = reference_slack_mm(reference, stop->t[n], rounding);
+        open |= has_open_cell(reference, path, stop->bodies[n], stop->t[n], slack_mm);
+        if (has_open_end(reference, path, stop->bodies[n], stop->t[n], slack_mm)) {
+            doubts[n].wrong += doubts[n].medium.extinction * brightest(reference);
+            doubts[n].low = 0;
+        }
+    }
+    for (int n = 0; n < stop->count && open; n++)
+        doubts[n].wrong += depth / doubts[n].medium.step_mm * brightest(reference);
+}
+
 // True when it is uncertain which of the media hides the others.
 static bool is_contested(const struct doubt *doubts, int count, bool by_priority) {
     for (int a = 0; a < count; a++) {
@@ -273,7 +324,9 @@ double reference_cast_bound(const struct reference *reference, double x_px, doub
             const struct spot spot = {reference, &path, &reference->bodies[k], stop.t[n]};
             double slack_mm = reference_slack_mm(reference, stop.t[n], errors->rounding);
             doubts[n] = doubt_body(&spot, k, &path.spans[k], slack_mm, errors);
+            doubts[n].medium.step_mm *= stop.steps;
         }
+        doubt_runs(doubts, reference, &path, &stop, errors->rounding);
         double transmittance = exp(-depth);
         double here = mixed_depth(reference, doubts, stop.count);
 

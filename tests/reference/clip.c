@@ -87,3 +87,35 @@ int reference_clip_places(double places[REFERENCE_CLIP_PLACES], const struct ref
     }
     return count;
 }
+
+// Narrows a span to where a height along the ray, linear with t, is at least 0.
+static void narrow(struct reference_span *span, double at_0, double at_1) {
+    double t = at_0 / (at_0 - at_1);
+    if (at_1 > at_0)
+        span->t_in = fmax(span->t_in, t);
+    else if (at_1 < at_0)
+        span->t_out = fmin(span->t_out, t);
+    else if (at_0 < 0)
+        span->t_out = -INFINITY;
+}
+
+struct reference_span reference_clip_span(const struct reference *reference,
+                                          const struct reference_path *path, int k) {
+    const struct reference_body *body = &reference->bodies[k];
+    struct reference_span span = path->spans[k];
+    for (int n = 0; n < reference->scene->clip_count + body->instance->clip_count; n++) {
+        double start[3], on[3];
+        const struct pel_clip *clip = find_clip(start, reference, path, body, n, 0);
+        find_clip(on, reference, path, body, n, 1);
+        if (clip->kind == PEL_CLIP_PLANE) {
+            double sign = clip->outside ? -1 : 1;
+            narrow(&span, sign * height_along(clip, 0, start), sign * height_along(clip, 0, on));
+        }
+        for (int side = 0; clip->kind == PEL_CLIP_BOX && !clip->outside && side < 6; side++) {
+            double sign = side % 2 ? -1 : 1, end = clip->size[side / 2] / 2;
+            narrow(&span, end - sign * height_along(clip, side / 2, start),
+                   end - sign * height_along(clip, side / 2, on));
+        }
+    }
+    return span;
+}

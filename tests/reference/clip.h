@@ -9,6 +9,10 @@
 bool reference_is_kept(const struct reference *reference, const struct reference_path *path,
                        const struct reference_body *body, double t, double *margin_mm);
 
+// The stretch of the ray in body k that planes and kept boxes leave.
+struct reference_span reference_clip_span(const struct reference *reference,
+                                          const struct reference_path *path, int k);
+
 #define REFERENCE_CLIP_PLACES (16 * 6)
 
 // Where the ray crosses the planes of all clips that the body has, in no order; returns how often.

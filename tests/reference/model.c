@@ -11,6 +11,7 @@
 #include "reference/clip.h"
 #include "reference/mix.h"
 #include "reference/pair.h"
+#include "reference/stride.h"
 #include "reference/style.h"
 
 // What lies at one sample, in front of what comes after it in this order.
@@ -200,7 +201,8 @@ static void add_thesis(double layer[4], const struct gathering *gathering, int k
     reference_compose(layer, layer, own);
 }
 
-static void gather_sample(struct gathering *gathering, double i, double t, uint64_t *taken) {
+static void gather_sample(struct gathering *gathering, double i, double t, double steps,
+                          uint64_t *taken) {
     const struct reference *reference = gathering->reference;
     const enum pel_mixing mixing = reference->scene->render.mixing;
     struct reference_medium media[PEL_VOLUME_MAX];
@@ -213,7 +215,11 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
         struct reference_sample sample;
         double p_voxel[3];
         total += model == PEL_MODEL_ABSORPTION;
-        if (t < gathering->path->spans[k].t_in || t >= gathering->path->spans[k].t_out)
+        // Who has the first sample of a run has all of it.
+        struct reference_span span = steps > 1 ? reference_clip_span(reference, gathering->path, k)
+                                               : gathering->path->spans[k];
+        double first = reference_sample_t(reference, gathering->path, i);
+        if (first < span.t_in || first >= span.t_out)
             continue;
         if (!reference_is_kept(reference, gathering->path, body, t, NULL)) {
             progress->known = false;
@@ -234,7 +240,7 @@ static void gather_sample(struct gathering *gathering, double i, double t, uint6
                                : reference_classify(body->instance, &body->table, &sample);
             media[count].body = total - 1;
             media[count].priority = body->instance->priority;
-            media[count].step_mm = reference->step_mm;
+            media[count].step_mm = steps * reference->step_mm;
             if (media[count].extinction > 0)
                 shade(&media[count], gathering, k, t, p_voxel, sample.value);
             count++;
@@ -276,10 +282,12 @@ void reference_gather(double rgba[4], const struct reference *reference,
     bool ends = termination < 1 && reference->scene->render.order == PEL_ORDER_FRONT_TO_BACK;
     for (int k = 0; k < reference->body_count; k++)
         ends = ends && !is_projection(reference_model_of(reference, k));
-    double t;
-    for (double i = 0; t = reference_sample_t(reference, path, i), t < path->t_far; i++) {
+    double steps;
+    for (double i = 0; reference_sample_t(reference, path, i) < path->t_far; i += steps) {
         int first = gathering.count;
-        gather_sample(&gathering, i, t, taken);
+        steps = reference_run(reference, path, i);
+        double t = reference_sample_t(reference, path, i + (steps - 1) / 2);
+        gather_sample(&gathering, i, t, steps, taken);
         for (int n = first; n < gathering.count; n++)
             reference_compose(so_far, so_far, gathering.layers[n].rgba);
         if (ends && so_far[3] > termination)

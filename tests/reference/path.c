@@ -5,9 +5,11 @@
 #include <stdlib.h>
 
 #include "base/math.h"
+#include "reference/clip.h"
 #include "reference/level.h"
 #include "reference/pair.h"
 #include "reference/reference.h"
+#include "reference/stride.h"
 
 static void init_body(struct reference_body *body, const struct pel_scene *scene,
                       const struct pel_instance *instance) {
@@ -23,6 +25,8 @@ static void init_body(struct reference_body *body, const struct pel_scene *scene
         body->high[c] = body->volume->dims[c] - 1 + margin;
     }
     reference_table_init(&body->table, instance->transfer, body->volume);
+    if (scene->render.adaptive_step > 0)
+        reference_run_prepare(body);
     if (reference_is_preintegrated(scene, instance)) {
         const struct pel_statistics *values = &scene->statistics[instance->volume];
         body->pairs = reference_pairs_create();
@@ -87,6 +91,7 @@ void reference_destroy(struct reference *reference) {
     for (int k = 0; k < reference->body_count; k++) {
         reference_table_finish(&reference->bodies[k].table);
         free(reference->bodies[k].pairs);
+        free(reference->bodies[k].runs);
     }
     reference_coarsen_finish(reference->coarse);
     free(reference);
@@ -142,20 +147,25 @@ double reference_sample_mm(const struct reference *reference, int body) {
     return own ? reference->bodies[body].step_mm : reference->step_mm;
 }
 
-// All bodies at sample walk->next of the common grid, which may be none.
+// All bodies in the middle of the run at sample walk->next of the common grid, which may be none.
 static bool next_of_all(struct reference_stop *stop, struct reference_walk *walk,
                         const struct reference *reference, const struct reference_path *path,
                         double rounding) {
-    double t = reference_sample_t(reference, path, walk->next++);
+    double first = walk->next, t = reference_sample_t(reference, path, first);
     double slack_mm = reference_slack_mm(reference, t, rounding);
     if (t >= path->t_far + slack_mm)
         return false;
+    stop->steps = reference_run(reference, path, first);
+    walk->next += stop->steps;
+    double middle = reference_sample_t(reference, path, first + (stop->steps - 1) / 2);
     for (int k = 0; k < reference->body_count; k++) {
-        struct reference_span span = path->spans[k];
+        // Who has the first sample of a run has all of it.
+        struct reference_span span =
+            stop->steps > 1 ? reference_clip_span(reference, path, k) : path->spans[k];
         if (span.t_in >= span.t_out || t < span.t_in - slack_mm || t >= span.t_out + slack_mm)
             continue;
         stop->bodies[stop->count] = k;
-        stop->t[stop->count++] = t;
+        stop->t[stop->count++] = middle;
     }
     return true;
 }
@@ -206,6 +216,7 @@ bool reference_next(struct reference_stop *stop, struct reference_walk *walk,
                     const struct reference *reference, const struct reference_path *path,
                     double rounding) {
     stop->count = 0;
+    stop->steps = 1;
     return reference->scene->render.mixing == PEL_MIX_ORDERED
                ? next_in_order(stop, walk, reference, path, rounding)
                : next_of_all(stop, walk, reference, path, rounding);

@@ -13,8 +13,10 @@ struct reference_body {
     double low[3], high[3]; // the box, in voxel coordinates
     struct reference_table table;
     double pair_range[2];
-    double (*pairs)[4]; // owned; of pairs of values, see pair.h. NaN: not worked out yet; or NULL
-    double step_mm;     // that it asks for
+    double (*pairs)[4];  // owned; of pairs of values, see pair.h. NaN: not worked out yet; or NULL
+    double step_mm;      // that it asks for
+    unsigned char *runs; // owned; of each cell, how long a run may be that begins there, 0: not
+                         // worked out yet; or NULL
 };
 
 struct reference {
@@ -52,6 +54,7 @@ struct reference_stop {
     int count;
     int bodies[PEL_VOLUME_MAX];
     double t[PEL_VOLUME_MAX];
+    double steps; // that a sample there stands for
 };
 
 // How far along its samples a ray is. Zero-initialise.

@@ -39,7 +39,9 @@ static void layer_at(double layer[4], const struct reference *reference,
                                NULL))
             continue;
         ++*taken;
-        count += medium_at(&media[count], reference, path, stop->bodies[n], stop->t[n]);
+        if (!medium_at(&media[count], reference, path, stop->bodies[n], stop->t[n]))
+            continue;
+        media[count++].step_mm *= stop->steps;
     }
     reference_mix(layer, reference->scene->render.mixing, media, count, reference->body_count);
 }

@@ -174,5 +174,7 @@ struct pel_scene *scene_random(uint64_t seed, bool small) {
         scene->instances[k].step = below(&seed, 4) ? 0 : between(&seed, 0.7, 1.5);
     }
     add_cuts(scene, &seed);
+    if (scene->render.mixing != PEL_MIX_ORDERED && below(&seed, 3) == 0)
+        scene->render.adaptive_step = between(&seed, 0.02, 0.3);
     return scene;
 }

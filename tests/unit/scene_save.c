@@ -61,7 +61,7 @@ static const char *const rich[] = {
     "   'second': true}, 'palette': 'hot', 'opacity_unit': 7, 'step_mm': 0.2, 'model': 'iso', "
     "'iso': [3.5, {'value': 4, 'colour': [0.1, 0.2, 0.3], 'opacity': 0.3}]}],"
     " 'render': {'size': [34, 22], 'region': [3, 4, 30, 1], 'mixing': 'over', 'step': 0.7, "
-    "'phase': 0.25,"
+    "'adaptive_step': 0.07, 'phase': 0.25,"
     "   'termination': 0.8, 'origin': 'bounds', 'skip': 'blocks', 'bricks': {'size': 16, "
     "'cluster': "
     "false, 'walk': false, 'cull': false, 'pool': 'on'}, 'jitter': true, 'debug': 'spans', "
