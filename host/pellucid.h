@@ -118,11 +118,17 @@ struct pel_volume {
 };
 
 // How to read a file. Zero-initialise for the defaults.
+// Whether values are labels. By itself, as the file says; a file without a way to say so, such as
+// a TIFF, is a label map when its name (a word such as "labels" or "seg") and its values
+// (pel_volume_seems_labels) agree. Colours never are.
+enum pel_label_choice { PEL_LABELS_AUTO, PEL_LABELS_YES, PEL_LABELS_NO };
+
 struct pel_load_options {
     // Which part of a file with more than three dimensions to take, counted from 0.
     int time, channel;
     // Multi-channel TIFF pages are taken as RGB(A) unless this is set: then `channel` picks one.
     bool split_channels;
+    enum pel_label_choice labels;
     // For headerless files (.raw, .bin, .img without header); `raw.dims[0] > 0` says they are given
     // and overrules any sidecar.
     struct {
@@ -143,6 +149,9 @@ struct pel_load_options {
 // Returns NULL on failure (FILE, FORMAT, MEMORY, UNSUPPORTED).
 PEL_API struct pel_volume *pel_volume_load(const char *path,
                                            const struct pel_load_options *options);
+
+// True for a label map, and for whole numbers that are mostly the same as their neighbours.
+PEL_API bool pel_volume_seems_labels(const struct pel_volume *volume);
 
 // Makes a volume of undefined voxels: 1 mm spacing, voxel (0,0,0) at the world's origin, slope 1.
 PEL_API struct pel_volume *pel_volume_create(const char *name, const int dims[3],

@@ -1,8 +1,8 @@
 // cursor.cl - what all ways to skip share: a packet's place in one part.
 //
-// A cursor answers one question, per lane: from sample i of this ray in this part, which is the next
-// sample that may be visible? The ray loop never knows which cursor it holds. Each way to skip is a file that
-// defines cursor_leap.
+// A cursor answers one question, per lane: from sample i of this ray in this part, which is the
+// next sample that may be visible? The ray loop never knows which cursor it holds. Each way to skip
+// is a file that defines cursor_leap.
 #ifndef CURSOR_CL
 #define CURSOR_CL
 
@@ -17,8 +17,9 @@
 
 #define SAMPLE_NEVER INT_MAX // the part has nothing more to show
 
-// The samples first <= i < end of a ray lie inside the part, and none before `next` may be visible. Positions
-// in memory coordinates are origin + i * delta; lanes that miss the part rest at a safe place inside it.
+// The samples first <= i < end of a ray lie inside the part, and none before `next` may be visible.
+// Positions in memory coordinates are origin + i * delta; lanes that miss the part rest at a safe
+// place inside it.
 struct cursor {
     integer first, end, next;
 #if SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
@@ -39,8 +40,8 @@ INLINE integer sample_at(real t, real t_near, ray_phase phase, float per_mm) {
 
 // Places the cursor at the start of the part, whose samples are `step_mm` apart.
 INLINE struct cursor cursor_begin(__constant struct world *world, __constant struct part *part,
-                                  const struct ray *ray_voxel, const struct span *span,
-                                  real t_near, float step_mm) {
+                                  const struct ray *ray_voxel, const struct span *span, real t_near,
+                                  float step_mm) {
     const float per_mm = 1.0f / step_mm;
     // A short span may lie between two samples: then there is nothing to show either.
     const ray_phase phase = RAY_PHASE(world, ray_voxel);
