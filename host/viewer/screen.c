@@ -13,7 +13,10 @@
 static bool open_window(struct pel_state *state, const struct pel_window_options *wanted,
                         char *sentence, size_t bytes) {
     struct pel_pane_window *window = &state->windows[state->window_count];
-    window->window = pel_window_create(wanted, &state->queue, sentence, bytes);
+    struct pel_window_options options = *wanted;
+    if (state->sharing && state->window_count > 0)
+        options.shares = state->windows[0].window;
+    window->window = pel_window_create(&options, &state->queue, sentence, bytes);
     if (!window->window)
         return false;
     state->window_count++;
@@ -65,6 +68,27 @@ static bool open_wall(struct pel_state *state, char *sentence, size_t bytes) {
     return true;
 }
 
+// Windows share their objects only when a device can have a part in it.
+static bool is_sharing_possible(void) {
+    struct pel_device_info devices[PEL_DEVICE_MAX];
+    int count = pel_device_list(devices);
+    for (int i = 0; i < count; i++)
+        if (devices[i].gl_sharing && devices[i].usable)
+            return true;
+    return false;
+}
+
+// Gives the rendering thread an OpenGL context of its own, if that is of use.
+static void open_lender(struct pel_state *state) {
+    if (!state->sharing) {
+        snprintf(state->unshared, sizeof state->unshared, "no device has cl_khr_gl_sharing");
+        return;
+    }
+    struct pel_window *unseen =
+        pel_window_create_unseen(state->windows[0].window, state->unshared, sizeof state->unshared);
+    state->lender = unseen ? pel_lender_create(unseen) : NULL;
+}
+
 bool pel_screen_open(struct pel_state *state, char *sentence, size_t bytes) {
     if (state->options->full_screen > pel_window_monitor_count()) {
         snprintf(sentence, bytes, "there is no monitor %d, but %d of them",
@@ -72,8 +96,10 @@ bool pel_screen_open(struct pel_state *state, char *sentence, size_t bytes) {
         return false;
     }
     bool wall = state->options->scene->wall.region_count > 0;
+    state->sharing = is_sharing_possible();
     if (!(wall ? open_wall(state, sentence, bytes) : open_single(state, sentence, bytes)))
         return false;
+    open_lender(state);
     state->with_panels = pel_panels_start(state);
     if (wall && state->options->full_screen)
         pel_screen_toggle_full_screen(state);
@@ -89,6 +115,8 @@ void pel_screen_close(struct pel_state *state) {
         pel_window_destroy(state->windows[i].window);
     }
     state->window_count = 0;
+    pel_lender_destroy(state->lender);
+    state->lender = NULL;
 }
 
 void pel_screen_name(struct pel_state *state) {
@@ -267,8 +295,14 @@ void pel_screen_upload(struct pel_state *state, int view, const struct pel_pixel
     const struct pel_pane_window *window = &state->windows[shown->window];
     memcpy(shown->part, pixels->part, sizeof shown->part);
     pel_window_draw_on(window->window);
-    pel_present_upload(window->present, slot_of(state, view), pixels->width, pixels->height,
-                       pixels->rgba);
+    int slot = slot_of(state, view);
+    if (pixels->rgba) {
+        pel_present_upload(window->present, slot, pixels->width, pixels->height, pixels->rgba);
+    } else if (pixels->loan) {
+        pel_present_take(window->present, slot, pixels->width, pixels->height,
+                         pel_loan_name(pixels->loan));
+        pel_loan_read(pixels->loan);
+    }
 }
 
 // Draws one window into whatever drawing goes to; `seconds` after the last time.

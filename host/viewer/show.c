@@ -88,6 +88,10 @@ void pel_show_take(struct pel_state *state, struct pel_picture *picture) {
     show_kept(state);
 }
 
+const char *pel_show_presented(const struct pel_state *state) {
+    return state->lender ? state->shown.statistics.gl_reason : state->unshared;
+}
+
 void pel_show_finish(struct pel_state *state) {
     pel_picture_destroy(state->kept);
     state->kept = NULL;
@@ -118,7 +122,8 @@ static void show_slices(struct pel_state *state) {
         struct pel_slice slice;
         if (!pel_show_slice(state, view, &slice))
             continue;
-        struct pel_pixels pixels = {slice.width, slice.height, NULL, {0, 0, 1, 1}};
+        struct pel_pixels pixels = {
+            .width = slice.width, .height = slice.height, .part = {0, 0, 1, 1}};
         pixels.rgba = malloc((size_t)slice.width * (size_t)slice.height * 4);
         if (!pixels.rgba)
             return;

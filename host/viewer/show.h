@@ -10,6 +10,10 @@
 int pel_show_scene_count(const struct pel_state *state);
 struct pel_scene *pel_show_scene(const struct pel_state *state, int number);
 
+// Why the newest picture's pixels came through the host's memory; "" when they came through a
+// buffer that OpenCL shares with OpenGL.
+const char *pel_show_presented(const struct pel_state *state);
+
 // Takes a picture of all of them over, and hands what is shown to the windows.
 void pel_show_take(struct pel_state *state, struct pel_picture *picture);
 

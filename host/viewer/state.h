@@ -84,6 +84,9 @@ struct pel_state {
     struct pel_pane_window windows[PEL_WALL_MAX];
     int window_count;
     struct pel_worker *worker;
+    bool sharing;                       // windows share their OpenGL objects
+    struct pel_lender *lender;          // of buffers that the worker shares with OpenGL, or NULL
+    char unshared[PEL_GL_REASON_BYTES]; // why there is none
 
     struct pel_film film; // the scene's animation
 
@@ -124,6 +127,7 @@ struct pel_state {
     bool panels, readouts, help; // whether they are shown
     double drawn_ms;             // when the windows were drawn last
     int shown_count;             // pictures so far
+    int shared_count;            // and those of them that came through shared buffers
     bool redraw;                 // the windows must be drawn again
 
     char message[PEL_STATE_SENTENCE]; // to the user
