@@ -126,21 +126,26 @@ static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
     return pel_device_finish(renderer->device);
 }
 
-// Adds up what the packets have counted.
+// Adds up what the packets have counted. Tiles of both eyes take turns, or lie behind each other.
 static void count_samples(struct pel_renderer *renderer, const struct pel_world *world,
                           const struct pel_tiling *tiling,
                           struct pel_render_statistics *statistics) {
-    size_t packets = tiling->tiles * tiling->packets_per_tile;
-    size_t pictures = (size_t)pel_world_pictures(world);
+    size_t eyes = (size_t)pel_world_eyes(world);
+    size_t turns = tiling->tiles * eyes / (size_t)pel_world_pictures(world);
+    size_t packets = turns * tiling->packets_per_tile;
     uint32_t(*counts)[SAMPLE_COUNTS] = pel_allocate(packets, sizeof *counts);
     uint64_t possible = 0;
     if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts)) {
-        for (size_t i = 0; i < packets; i++) {
-            statistics->samples += counts[i][SAMPLES_TAKEN];
-            statistics->stereo.eye_samples[i / tiling->packets_per_tile % pictures] +=
-                counts[i][SAMPLES_TAKEN];
-            statistics->samples_terminated += counts[i][SAMPLES_BEHIND];
-            possible += counts[i][SAMPLES_POSSIBLE];
+        const uint32_t(*count)[SAMPLE_COUNTS] = (const uint32_t(*)[SAMPLE_COUNTS])counts;
+        for (size_t turn = 0; turn < turns; turn++) {
+            uint64_t taken = 0;
+            for (size_t i = 0; i < tiling->packets_per_tile; i++, count++) {
+                taken += (*count)[SAMPLES_TAKEN];
+                statistics->samples_terminated += (*count)[SAMPLES_BEHIND];
+                possible += (*count)[SAMPLES_POSSIBLE];
+            }
+            statistics->stereo.eye_samples[turn % eyes] += taken;
+            statistics->samples += taken;
         }
         statistics->samples_skipped =
             possible - statistics->samples - statistics->samples_terminated;
@@ -180,7 +185,8 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
 
     *tiling = pel_tiles_plan(&scene->render, pel_world_pictures(world), lanes,
                              choose_group(renderer, kernel));
-    size_t packets = (tiling->tiles + tiling->tiles_per_group) * tiling->packets_per_tile;
+    size_t packets = (tiling->tiles + tiling->tiles_per_group) * tiling->packets_per_tile *
+                     (size_t)pel_world_eyes(world);
     if (!pel_residency_update(&renderer->residency, scene, layout, world) ||
         !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
                            (world->eyes == EYES_ONE ? 1 : 2) * sizeof world->bytes.camera,
@@ -239,7 +245,8 @@ static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
                        const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
                        const struct pel_render_options *options,
                        struct pel_render_statistics *statistics) {
-    statistics->rays = count_pixels(world);
+    statistics->rays = (uint64_t)world->bytes.width * (uint64_t)world->bytes.height *
+                       (uint64_t)pel_world_eyes(world);
     statistics->refined = 1;
     if (eyes->only)
         return run_only(renderer, kernel, world, tiling, eyes->only, options, statistics);
@@ -273,8 +280,8 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
                              const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
-    struct pel_image *image =
-        pel_image_create(scene->render.width, pel_world_planes(world) * scene->render.height);
+    struct pel_image *image = pel_image_create(pel_world_across(world) * scene->render.width,
+                                               pel_world_planes(world) * scene->render.height);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
         return NULL;
@@ -300,16 +307,33 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
 
 // The picture of nothing: the background.
 static struct pel_image *render_background(const struct pel_world *world) {
-    struct pel_image *image =
-        pel_image_create(world->bytes.width, pel_world_planes(world) * world->bytes.height);
+    struct pel_image *image = pel_image_create(pel_world_across(world) * world->bytes.width,
+                                               pel_world_planes(world) * world->bytes.height);
     if (!image)
         return NULL;
+    const struct world *bytes = &world->bytes;
+    const float4 *colour =
+        world->eyes == EYES_MERGED ? &bytes->merged_background : &bytes->background;
     size_t pixels = count_pixels(world);
     for (size_t i = 0; i < pixels; i++)
-        memcpy(&image->rgba[4 * i], &world->bytes.background, sizeof world->bytes.background);
+        memcpy(&image->rgba[4 * i], colour, sizeof *colour);
     for (size_t i = pixels; i < (size_t)image->width * (size_t)image->height; i++)
         image->rgba[4 * i] = FLT_MAX;
     return image;
+}
+
+static bool add_second(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_frame_eyes *eyes) {
+    if (!eyes->second)
+        return true;
+    if (!pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave))
+        return false;
+    if (eyes->eyes == EYES_MERGED)
+        pel_world_merge_eyes(world, eyes->glasses->matrix, eyes->glasses->linear,
+                             eyes->glasses->background);
+    if (eyes->beside)
+        pel_world_lay_beside(world);
+    return true;
 }
 
 // Plans where the voxels lie and makes the world's bytes, which go by that. Zeroes the statistics.
@@ -334,7 +358,7 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     }
     size_t pixel_bytes = (size_t)pel_world_planes(world) * sizeof(float4) +
                          (world->supersampling ? PEL_RESOLVE_BYTES : 0);
-    if ((eyes->second && !pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave)) ||
+    if (!add_second(world, scene, eyes) ||
         !pel_residency_check(layout, &limits, count_pixels(world) * pixel_bytes)) {
         pel_world_finish(world);
         return false;

@@ -2,14 +2,19 @@
 //
 // The kernel takes tiles of either eye in turns, so that the second one finds the voxels in the
 // caches, and everything but a camera is prepared and sent once. Of an interlaced picture it
-// follows only the rays that are shown: a packet then has rays of both eyes.
+// follows only the rays that are shown: a packet then has rays of both eyes. Of an anaglyph each
+// work-item follows a packet of both eyes, one after the other, and leaves the colour that the
+// glasses make of them; and pictures beside each other are left where they belong. So there is one
+// picture and nothing to be put together.
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "output/stereo.h"
 #include "render/frame.h"
 #include "render/reproject.h"
+#include "world/world.h"
 
 static bool is_debug(const struct pel_scene *scene) {
     return scene->render.debug != PEL_DEBUG_NONE;
@@ -28,15 +33,38 @@ static bool find_weave(const struct pel_scene *scene, int weave[2]) {
            supersampling->filter == PEL_RECONSTRUCTION_BOX;
 }
 
-// Progress of one eye, as a part of both.
-struct part {
+// Whether rays end as pixels of the picture. With supersampling their mean does, and in a
+// reprojected eye and in debug views the host has its hand.
+static bool is_direct(const struct pel_scene *scene) {
+    const struct pel_supersampling *supersampling = &scene->render.supersampling;
+    return !scene->stereo.reproject && !is_debug(scene) && !(supersampling->adaptive > 0) &&
+           !pel_world_is_supersampled(supersampling);
+}
+
+// The glasses of an anaglyph.
+static bool put_on(struct pel_glasses *glasses, const struct pel_scene *scene) {
+    float premultiplied[4] = {0, 0, 0, (float)scene->background[3]};
+    for (int c = 0; c < 3; c++)
+        premultiplied[c] = (float)(scene->background[c] * scene->background[3]);
+    const struct pel_image behind = {1, 1, premultiplied};
+    struct pel_image *merged = pel_stereo_compose(&scene->stereo, &behind, &behind);
+    if (!merged)
+        return false;
+    memcpy(glasses->background, merged->rgba, sizeof glasses->background);
+    pel_image_destroy(merged);
+    glasses->linear = pel_anaglyph_matrix(&scene->stereo, glasses->matrix);
+    return true;
+}
+
+// Progress of one eye, as a share of both.
+struct share {
     const struct pel_render_options *options;
     double begin;
 };
 
-static bool report_part(double finished, void *user) {
-    const struct part *part = user;
-    return part->options->progress(part->begin + finished / 2, part->options->user);
+static bool report_share(double finished, void *user) {
+    const struct share *share = user;
+    return share->options->progress(share->begin + finished / 2, share->options->user);
 }
 
 // What is counted or timed adds up; what was chosen is that of the last eye.
@@ -69,11 +97,11 @@ static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_
     struct pel_image *both = NULL;
     *statistics = (struct pel_render_statistics){0};
     for (int i = 0; i < 2; i++) {
-        struct part part = {options, i / 2.0};
+        struct share share = {options, i / 2.0};
         struct pel_render_options of_eye = options ? *options : (struct pel_render_options){0};
         if (of_eye.progress) {
-            of_eye.progress = report_part;
-            of_eye.user = &part;
+            of_eye.progress = report_share;
+            of_eye.user = &share;
         }
         struct pel_render_statistics of_frame;
         struct pel_image *eye =
@@ -171,15 +199,15 @@ static struct pel_image *render_reprojected(struct pel_renderer *renderer, struc
                                             struct pel_render_statistics *statistics) {
     if (!check_reproject(seen))
         return NULL;
-    struct part part = {options, 0};
+    struct share share = {options, 0};
     struct pel_render_options of_eye = options ? *options : (struct pel_render_options){0};
     if (of_eye.progress) {
-        of_eye.progress = report_part;
-        of_eye.user = &part;
+        of_eye.progress = report_share;
+        of_eye.user = &share;
     }
     const struct pel_frame_eyes with_depth = {.eyes = EYES_DEPTH};
     struct pel_image *both = pel_frame_render(renderer, seen, &with_depth, &of_eye, statistics);
-    part.begin = 0.5;
+    share.begin = 0.5;
     if (both && make_second(renderer, seen, cameras, both, &of_eye, statistics))
         return both;
     pel_image_destroy(both);
@@ -261,9 +289,19 @@ struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struc
     struct pel_frame_eyes eyes = {.eyes = EYES_ONE};
     if (scene->stereo.kind == PEL_STEREO_NONE)
         return pel_frame_render(renderer, scene, &eyes, options, statistics);
-    eyes.eyes = find_weave(scene, eyes.weave) ? EYES_WOVEN : EYES_BOTH;
+    struct pel_glasses glasses;
+    eyes.eyes = EYES_BOTH;
+    if (find_weave(scene, eyes.weave))
+        eyes.eyes = EYES_WOVEN;
+    else if (is_direct(scene) && pel_stereo_is_anaglyph(scene->stereo.kind))
+        eyes.eyes = EYES_MERGED;
+    eyes.beside = is_direct(scene) && scene->stereo.kind == PEL_STEREO_SIDE_BY_SIDE;
+    eyes.glasses = &glasses;
+    if (eyes.eyes == EYES_MERGED && !put_on(&glasses, scene))
+        return NULL;
     struct pel_image *image = render_pair(renderer, scene, &eyes, options, statistics);
-    if (!image || eyes.eyes == EYES_WOVEN)
+    if (!image || eyes.eyes != EYES_BOTH || eyes.beside ||
+        scene->stereo.kind == PEL_STEREO_TOP_BOTTOM)
         return image;
     double begin_ms = pel_clock_ms();
     int height = image->height / 2;
