@@ -3,6 +3,7 @@
 // The kernel takes tiles of either eye in turns, so that the second one finds the voxels in the
 // caches, and everything but a camera is prepared and sent once. Of an interlaced picture it
 // follows only the rays that are shown: a packet then has rays of both eyes.
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -195,6 +196,12 @@ static struct pel_image *render_pair(struct pel_renderer *renderer, const struct
     struct pel_stereo used;
     if (!pel_stereo_cameras(scene, cameras, &used))
         return NULL;
+    // Two pictures become one on the host.
+    struct pel_render_options here = options ? *options : (struct pel_render_options){0};
+    bool brought = here.gl_buffer && eyes->eyes != EYES_WOVEN;
+    if (brought)
+        here.gl_buffer = 0;
+    options = &here;
     // The copy borrows everything the scene owns.
     struct pel_scene seen = *scene;
     seen.camera = cameras[0];
@@ -207,6 +214,9 @@ static struct pel_image *render_pair(struct pel_renderer *renderer, const struct
         image = render_reprojected(renderer, &seen, cameras, options, statistics);
     else
         image = pel_frame_render(renderer, &seen, &both, options, statistics);
+    if (brought)
+        snprintf(statistics->gl_reason, sizeof statistics->gl_reason,
+                 "two eyes are put together on the host");
     statistics->stereo.separation_mm = used.separation_mm;
     statistics->stereo.convergence_mm = used.convergence_mm;
     return image;
