@@ -4,6 +4,7 @@
 // and run it over the tiles in short batches. What is on the device stays for the next frame.
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,7 @@
 #include "base/memory.h"
 #include "device/device.h"
 #include "render/bakery.h"
+#include "render/counts.h"
 #include "render/debug.h"
 #include "render/detail.h"
 #include "render/frame.h"
@@ -24,6 +26,7 @@
 #include "render/target.h"
 #include "render/tiles.h"
 #include "render/settings.h"
+#include "render/share.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
 #include "world/skip.h"
@@ -40,6 +43,7 @@ struct pel_renderer {
     struct pel_bakery bakery;
     struct pel_detail detail;
     struct pel_target target;
+    struct pel_share share;
     struct pel_buffer *sample_counts;
     size_t sample_counts_bytes;
     struct pel_pace pace;
@@ -124,33 +128,6 @@ static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
     // The next frame may begin with all pixels where this one ended with few.
     renderer->pace.tiles_per_ms = slowest;
     return pel_device_finish(renderer->device);
-}
-
-// Adds up what the packets have counted. Tiles of both eyes take turns, or lie behind each other.
-static void count_samples(struct pel_renderer *renderer, const struct pel_world *world,
-                          const struct pel_tiling *tiling,
-                          struct pel_render_statistics *statistics) {
-    size_t eyes = (size_t)pel_world_eyes(world);
-    size_t turns = tiling->tiles * eyes / (size_t)pel_world_pictures(world);
-    size_t packets = turns * tiling->packets_per_tile;
-    uint32_t(*counts)[SAMPLE_COUNTS] = pel_allocate(packets, sizeof *counts);
-    uint64_t possible = 0;
-    if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts)) {
-        const uint32_t(*count)[SAMPLE_COUNTS] = (const uint32_t(*)[SAMPLE_COUNTS])counts;
-        for (size_t turn = 0; turn < turns; turn++) {
-            uint64_t taken = 0;
-            for (size_t i = 0; i < tiling->packets_per_tile; i++, count++) {
-                taken += (*count)[SAMPLES_TAKEN];
-                statistics->samples_terminated += (*count)[SAMPLES_BEHIND];
-                possible += (*count)[SAMPLES_POSSIBLE];
-            }
-            statistics->stereo.eye_samples[turn % eyes] += taken;
-            statistics->samples += taken;
-        }
-        statistics->samples_skipped =
-            possible - statistics->samples - statistics->samples_terminated;
-    }
-    free(counts);
 }
 
 // The work-group that the user, the device or the kernel allows: a power of two.
@@ -273,15 +250,19 @@ static bool paint(struct pel_image *image, const struct pel_renderer *renderer, 
     return pel_debug_paint(image, view, options ? options->numbers : NULL, &statistics->debug);
 }
 
-// Runs the kernel and brings the picture here. The caller owns it.
+// Runs the kernel and brings the picture here, unless it can stay for OpenGL: then it is in the
+// target. The caller owns the image.
 static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *kernel,
                              const struct pel_scene *scene, const struct pel_world *world,
                              const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
                              const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
-    struct pel_image *image = pel_image_create(pel_world_across(world) * scene->render.width,
-                                               pel_world_planes(world) * scene->render.height);
+    int across = pel_world_across(world), planes = pel_world_planes(world);
+    struct pel_image *image =
+        across > 1 ? pel_image_create(across * scene->render.width, planes * scene->render.height)
+                   : pel_share_create_image(&renderer->share, renderer->device, &scene->render,
+                                            planes, options, statistics);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
         return NULL;
@@ -300,7 +281,8 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
         pel_image_destroy(image);
         return NULL;
     }
-    count_samples(renderer, world, tiling, statistics);
+    pel_counts_add(renderer->sample_counts, tiling, pel_world_eyes(world),
+                   pel_world_pictures(world), statistics);
     statistics->download_ms = lap_ms(&mark);
     return image;
 }
@@ -400,6 +382,9 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_image *image = NULL;
     if (world.bytes.part_count == 0) {
         image = render_background(&world);
+        if (options && options->gl_buffer)
+            snprintf(statistics->gl_reason, sizeof statistics->gl_reason,
+                     "there is nothing to render");
     } else {
         struct pel_tiling tiling;
         struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &tiling, statistics);
@@ -407,6 +392,12 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
             image = run(renderer, kernel, &shown, &world, eyes, &tiling, options, statistics);
     }
     pel_world_finish(&world);
+    if (image && !image->rgba &&
+        !pel_share_put(&renderer->share, renderer->device, &renderer->target, image, &shown.render,
+                       &scene->render, options, statistics)) {
+        pel_image_destroy(image);
+        image = NULL;
+    }
     const struct pel_device_info *info = pel_device_describe(renderer->device);
     memcpy(statistics->device, info->name, sizeof statistics->device);
     memcpy(statistics->driver, info->driver, sizeof statistics->driver);
@@ -414,6 +405,10 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     statistics->device_bytes = pel_device_allocated_bytes(renderer->device);
     statistics->uploaded_bytes = pel_device_uploaded_bytes(renderer->device) - uploaded_before;
     return pel_region_cut(image, &shown.render, &scene->render);
+}
+
+void pel_renderer_forget_gl(struct pel_renderer *renderer, uint32_t gl_buffer) {
+    pel_share_forget(&renderer->share, gl_buffer);
 }
 
 bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *scene, int x, int y,
@@ -470,7 +465,7 @@ struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *opti
     if (!renderer)
         return NULL;
     renderer->options = chosen;
-    renderer->device = pel_device_open(chosen.device, chosen.compute_units);
+    renderer->device = pel_device_open(chosen.device, chosen.compute_units, &chosen.gl);
     renderer->options.device = NULL; // it was borrowed for this call
     renderer->residency.device = renderer->device;
     if (!renderer->device) {
@@ -490,6 +485,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_occupancy_finish(&renderer->occupancy);
     pel_resolve_finish(&renderer->resolve);
     pel_target_finish(&renderer->target);
+    pel_share_finish(&renderer->share);
     pel_buffer_destroy(renderer->sample_counts);
     pel_kernel_cache_finish(&renderer->kernels);
     pel_bakery_finish(&renderer->bakery);

@@ -6,6 +6,7 @@
 // work-item follows a packet of both eyes, one after the other, and leaves the colour that the
 // glasses make of them; and pictures beside each other are left where they belong. So there is one
 // picture and nothing to be put together.
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -223,6 +224,12 @@ static struct pel_image *render_pair(struct pel_renderer *renderer, const struct
     struct pel_stereo used;
     if (!pel_stereo_cameras(scene, cameras, &used))
         return NULL;
+    // Two pictures become one on the host.
+    struct pel_render_options here = options ? *options : (struct pel_render_options){0};
+    bool brought = here.gl_buffer && eyes->eyes == EYES_BOTH;
+    if (brought)
+        here.gl_buffer = 0;
+    options = &here;
     // The copy borrows everything the scene owns.
     struct pel_scene seen = *scene;
     seen.camera = cameras[0];
@@ -235,6 +242,9 @@ static struct pel_image *render_pair(struct pel_renderer *renderer, const struct
         image = render_reprojected(renderer, &seen, cameras, options, statistics);
     else
         image = pel_frame_render(renderer, &seen, &both, options, statistics);
+    if (brought)
+        snprintf(statistics->gl_reason, sizeof statistics->gl_reason,
+                 "two eyes are put together on the host");
     statistics->stereo.separation_mm = used.separation_mm;
     statistics->stereo.convergence_mm = used.convergence_mm;
     return image;

@@ -4,6 +4,7 @@
 // OpenGL's own header is epoxy's, in present.c.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -188,6 +189,15 @@ static void listen(GLFWwindow *handle) {
     glfwSetWindowCloseCallback(handle, on_close);
 }
 
+// What is asked of every context.
+static void hint(void) {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+}
+
 struct pel_window *pel_window_create(const struct pel_window_options *options,
                                      struct pel_event_queue *queue, char *sentence, size_t bytes) {
     struct pel_window *window = calloc(1, sizeof *window);
@@ -204,13 +214,11 @@ struct pel_window *pel_window_create(const struct pel_window_options *options,
         const GLFWvidmode *mode = glfwGetVideoMode(monitor);
         width = mode->width, height = mode->height;
     }
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    hint();
     glfwWindowHint(GLFW_DECORATED, !options->unadorned);
     glfwWindowHint(GLFW_VISIBLE, monitor || !options->placed);
-    window->handle = glfwCreateWindow(width, height, options->title, monitor, NULL);
+    window->handle = glfwCreateWindow(width, height, options->title, monitor,
+                                      options->shares ? options->shares->handle : NULL);
     if (!window->handle) {
         fail(sentence, bytes, "no window with OpenGL 3.3 can be opened");
         free(window);
@@ -224,6 +232,24 @@ struct pel_window *pel_window_create(const struct pel_window_options *options,
     listen(window->handle);
     glfwMakeContextCurrent(window->handle);
     glfwSwapInterval(options->follows ? 0 : 1);
+    return window;
+}
+
+struct pel_window *pel_window_create_unseen(struct pel_window *other, char *sentence,
+                                            size_t bytes) {
+    struct pel_window *window = calloc(1, sizeof *window);
+    if (!window) {
+        snprintf(sentence, bytes, "cannot allocate a window");
+        return NULL;
+    }
+    hint();
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    window->handle = glfwCreateWindow(1, 1, "Pellucid", NULL, other->handle);
+    if (!window->handle) {
+        fail(sentence, bytes, "OpenGL shares no objects");
+        free(window);
+        return NULL;
+    }
     return window;
 }
 
@@ -253,7 +279,31 @@ void pel_window_pixels(struct pel_window *window, int pixels[2], double *scale) 
 }
 
 void pel_window_draw_on(struct pel_window *window) {
-    glfwMakeContextCurrent(window->handle);
+    glfwMakeContextCurrent(window ? window->handle : NULL);
+}
+
+// GLFW's own functions for this exist only where it was built for X. So the platform's library is
+// asked, if GLFW has loaded it; its own way to find functions makes some up.
+void pel_window_tell_context(struct pel_gl *gl) {
+    static const struct {
+        enum pel_gl_platform platform;
+        const char *library, *context, *display;
+    } platforms[] = {
+        {PEL_GL_GLX, "libGLX.so.0", "glXGetCurrentContext", "glXGetCurrentDisplay"},
+        {PEL_GL_GLX, "libGL.so.1", "glXGetCurrentContext", "glXGetCurrentDisplay"},
+        {PEL_GL_EGL, "libEGL.so.1", "eglGetCurrentContext", "eglGetCurrentDisplay"},
+    };
+    *gl = (struct pel_gl){0};
+    for (size_t i = 0; i < sizeof platforms / sizeof *platforms && !gl->context; i++) {
+        void *library = dlopen(platforms[i].library, RTLD_LAZY | RTLD_NOLOAD);
+        if (!library)
+            continue;
+        void *(*context)(void) = (void *(*)(void))dlsym(library, platforms[i].context);
+        void *(*display)(void) = (void *(*)(void))dlsym(library, platforms[i].display);
+        if (context && display && context())
+            *gl = (struct pel_gl){platforms[i].platform, context(), display()};
+        dlclose(library);
+    }
 }
 
 void pel_window_show(struct pel_window *window) {

@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "world/model.h"
 
 static bool is_finite(const double *values, int count) {
     for (int i = 0; i < count; i++)
@@ -43,15 +42,11 @@ static bool check_clips(const struct pel_clip *clips, int count) {
 bool pel_clip_check(const struct pel_scene *scene) {
     if (!check_clips(scene->clips, scene->clip_count))
         return false;
-    int count = scene->clip_count;
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];
         if (!check_clips(instance->clips, instance->clip_count))
             return pel_fail_in("volume '%s'", instance->name);
-        count += instance->hidden ? 0 : instance->clip_count;
     }
-    if (count > 0 && pel_model_kernel(scene) & MODELS_EMISSION)
-        return pel_fail(PEL_ERROR_ARGUMENT, "model emission cannot be clipped");
     return true;
 }
 

@@ -4,7 +4,7 @@
 
 #include "world/world.h"
 
-// Fails (ARGUMENT) when a plane or box is no such thing, or the model cannot be clipped.
+// Fails (ARGUMENT) when a plane or box is no such thing.
 bool pel_clip_check(const struct pel_scene *scene);
 
 // Appends the scene's and the instance's clips to the world's cuts and lets `part` refer to them.

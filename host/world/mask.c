@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "base/math.h"
-#include "world/model.h"
 
 int pel_mask_of(const struct pel_instance *instance) {
     return instance->mask.range_count > 0 ? instance->mask.instance : -1;
@@ -45,13 +44,9 @@ static bool check_mask(const struct pel_scene *scene, int k) {
 }
 
 bool pel_mask_check(const struct pel_scene *scene) {
-    bool masked = false;
-    for (int k = 0; k < scene->instance_count; k++) {
-        const struct pel_instance *instance = &scene->instances[k];
+    for (int k = 0; k < scene->instance_count; k++)
         if (!check_mask(scene, k))
-            return pel_fail_in("volume '%s'", instance->name);
-        masked |= instance->mask.range_count > 0 && !instance->hidden;
-    }
+            return pel_fail_in("volume '%s'", scene->instances[k].name);
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];
         if (pel_mask_of(instance) == k)
@@ -61,8 +56,6 @@ bool pel_mask_check(const struct pel_scene *scene) {
                             "volume '%s': its mask '%s' is masked by it in turn", instance->name,
                             scene->instances[instance->mask.instance].name);
     }
-    if (masked && pel_model_kernel(scene) & MODELS_EMISSION)
-        return pel_fail(PEL_ERROR_ARGUMENT, "model emission cannot be masked");
     return true;
 }
 

@@ -8,7 +8,7 @@
 // The instance whose values decide where this one is shown, or -1.
 int pel_mask_of(const struct pel_instance *instance);
 
-// Fails (ARGUMENT) when a mask is none, decides about itself, or the model cannot be masked.
+// Fails (ARGUMENT) when a mask is none or decides about itself.
 bool pel_mask_check(const struct pel_scene *scene);
 
 // Lets part p of the world go by the `count` parts of its mask from `first` on, and appends what it

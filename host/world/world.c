@@ -388,6 +388,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     memset(world, 0, sizeof *world);
     world->cell_side = layout->cell_side;
     world->pool = layout->pool;
+    world->border = layout->border;
     world->eyes = EYES_ONE;
     world->bytes.pictures = 1;
     struct pel_bounds bounds = {{0}, {0}};
@@ -437,8 +438,7 @@ bool pel_world_add_eye(struct pel_world *world, const struct pel_scene *scene,
 
 void pel_world_merge_eyes(struct pel_world *world, const double matrix[3][6], bool linear,
                           const float background[4]) {
-    world->bytes.merged_background =
-        (float4){background[0], background[1], background[2], background[3]};
+    memcpy(&world->bytes.merged_background, background, sizeof world->bytes.merged_background);
     world->bytes.merge_linear = linear;
     for (int n = 0; n < 6; n++) {
         const double column[3] = {matrix[0][n], matrix[1][n], matrix[2][n]};
@@ -465,7 +465,7 @@ int pel_world_across(const struct pel_world *world) {
 
 int pel_world_planes(const struct pel_world *world) {
     bool two = world->eyes == EYES_BOTH || world->eyes == EYES_DEPTH;
-    return two && pel_world_across(world) == 1 ? 2 : 1;
+    return two ? 2 / pel_world_across(world) : 1;
 }
 
 void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {

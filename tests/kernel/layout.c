@@ -146,7 +146,7 @@ enum { COUNT = sizeof host / sizeof *host };
 
 static void test_layout(void **state) {
     (void)state;
-    struct pel_device *device = pel_device_open(NULL, 0);
+    struct pel_device *device = pel_device_open(NULL, 0, &(struct pel_gl){0});
     if (!device)
         fail_msg("%s", pel_error_message());
     struct pel_kernel *kernel =

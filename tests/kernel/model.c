@@ -180,11 +180,79 @@ static void test_emission(void **state) {
     pel_renderer_destroy(renderer);
 }
 
+// A box that shines by the length that planes, boxes and masks leave of each ray.
+static void test_emission_left(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, lanes());
+    struct pel_scene *scene = scene_create(8, 8);
+    scene_view_parallel(scene, 12);
+    scene->render.model = PEL_MODEL_EMISSION;
+    scene->render.emission_scale = 0.05;
+    const double white[4] = {1, 1, 1, 0};
+    scene_add(scene, scene_volume_constant((int[]){16, 16, 16}, PEL_VOXEL_U8, 100),
+              scene_transfer_constant(white));
+    // A cut-away box of 3.3 mm that overlaps another, 5 mm of both, and a plane 1.7 mm above the
+    // ground.
+    struct pel_clip *clips = scene->clips;
+    clips[0] =
+        (struct pel_clip){PEL_CLIP_BOX, .outside = true, .point = {0, 0, 3}, .size = {50, 50, 3.3}};
+    clips[1] = clips[0];
+    clips[1].point[2] += 1.7;
+    clips[2] = (struct pel_clip){PEL_CLIP_PLANE, .point = {0, 0, -6.3}, .normal = {0, 0, 1}};
+    scene->clip_count = 3;
+    // Layers of 4 mm.
+    double labels[2] = {1, 2};
+    struct pel_volume *layers = scene_volume_ramp((int[]){2, 2, 2}, PEL_VOXEL_U8, labels);
+    scene_place(layers, (double[]){50, 50, 4}, (double[]){0, 0, 0, 1}, (double[]){0, 0, -4}, false);
+    scene_add(scene, layers, scene_transfer_constant(white))->hidden = true;
+    // Without a mask, label 1, all but label 1, and a label that there is not.
+    static const double lengths[4] = {14.3 - 5, 2.3, 14.3 - 5 - 2.3, 0};
+    for (int n = 0; n < 4; n++) {
+        double label = n == 3 ? 3 : 1;
+        scene->instances[0].mask = (struct pel_mask){
+            .instance = 1, .range_count = n > 0, .ranges = {{label, label}}, .inverted = n == 2};
+        struct pel_image *picture = judge_render(renderer, scene, NULL, "what is left");
+        assert_near(picture->rgba[4 * (4 * 8 + 4)], 0.05 * lengths[n], 1e-5);
+        pel_image_destroy(picture);
+    }
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
+// The same in all poses, from buffers and from images.
+static void test_emission_waves(void **state) {
+    (void)state;
+    struct pel_renderer *buffers = judge_renderer(PEL_READER_BUFFER, lanes());
+    struct pel_renderer *images = judge_renderer(PEL_READER_IMAGE, 1);
+    struct pel_scene *scene = scene_of_two();
+    if (scene_is_small()) {
+        scene->render.width = 12;
+        scene->render.height = 8;
+    }
+    scene->render.model = PEL_MODEL_EMISSION;
+    scene->instances[0].mask =
+        (struct pel_mask){.instance = 1, .range_count = 1, .ranges = {{60, 190}}, .inverted = true};
+    scene->instances[1].clips[0] =
+        (struct pel_clip){PEL_CLIP_BOX, .outside = true, .point = {2, 3, 1}, .size = {9, 8, 10},
+                          .xyzw = {0.3, 0.1, -0.2, 0.9}};
+    scene->instances[1].clip_count = 1;
+    scene->clips[0] =
+        (struct pel_clip){PEL_CLIP_BOX, .size = {15.3, 14.1, 16.7}, .xyzw = {0, 0.2, 0.1, 1}};
+    scene->clip_count = 1;
+    pel_image_destroy(judge_render(buffers, scene, NULL, "buffers"));
+    if (judge_has_images(images, scene))
+        pel_image_destroy(judge_render(images, scene, NULL, "images"));
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(buffers);
+    pel_renderer_destroy(images);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_models),     cmocka_unit_test(test_emission),
-        cmocka_unit_test(test_thin_shell), cmocka_unit_test(test_counts),
-        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_models),         cmocka_unit_test(test_emission),
+        cmocka_unit_test(test_thin_shell),     cmocka_unit_test(test_counts),
+        cmocka_unit_test(test_order),          cmocka_unit_test(test_emission_left),
+        cmocka_unit_test(test_emission_waves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

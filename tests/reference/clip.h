@@ -9,4 +9,10 @@
 bool reference_is_kept(const struct reference *reference, const struct reference_path *path,
                        const struct reference_body *body, double t, double *margin_mm);
 
+#define REFERENCE_CLIP_PLACES (16 * 6)
+
+// Where the ray crosses the planes of all clips that the body has, in no order; returns how often.
+int reference_clip_places(double places[REFERENCE_CLIP_PLACES], const struct reference *reference,
+                          const struct reference_path *path, const struct reference_body *body);
+
 #endif
