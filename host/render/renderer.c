@@ -138,12 +138,16 @@ static void count_samples(struct pel_renderer *renderer, const struct pel_world 
     uint32_t(*counts)[SAMPLE_COUNTS] = pel_allocate(packets, sizeof *counts);
     uint64_t possible = 0;
     if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts)) {
-        for (size_t i = 0; i < packets; i++) {
-            statistics->samples += counts[i][SAMPLES_TAKEN];
-            statistics->stereo.eye_samples[i / tiling->packets_per_tile % pictures] +=
-                counts[i][SAMPLES_TAKEN];
-            statistics->samples_terminated += counts[i][SAMPLES_BEHIND];
-            possible += counts[i][SAMPLES_POSSIBLE];
+        for (size_t tile = 0; tile < tiling->tiles; tile++) {
+            uint64_t taken = 0;
+            for (size_t i = 0; i < tiling->packets_per_tile; i++) {
+                const uint32_t *count = counts[tile * tiling->packets_per_tile + i];
+                taken += count[SAMPLES_TAKEN];
+                statistics->samples_terminated += count[SAMPLES_BEHIND];
+                possible += count[SAMPLES_POSSIBLE];
+            }
+            statistics->samples += taken;
+            statistics->stereo.eye_samples[tile % pictures] += taken;
         }
         statistics->samples_skipped =
             possible - statistics->samples - statistics->samples_terminated;
