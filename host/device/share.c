@@ -28,7 +28,7 @@ static bool is_device_of(const struct pel_device *device, const cl_context_prope
         size_t bytes = 0;
         if (ask(properties, keys[i], sizeof ids, ids, &bytes) != CL_SUCCESS)
             continue;
-        for (size_t k = 0; k < bytes / sizeof *ids && k < DEVICES; k++)
+        for (size_t k = 0; k < bytes / sizeof(cl_device_id) && k < DEVICES; k++)
             if (ids[k] == device->id)
                 return true;
     }

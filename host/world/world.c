@@ -388,6 +388,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     memset(world, 0, sizeof *world);
     world->cell_side = layout->cell_side;
     world->pool = layout->pool;
+    world->border = layout->border;
     world->eyes = EYES_ONE;
     world->bytes.pictures = 1;
     struct pel_bounds bounds = {{0}, {0}};

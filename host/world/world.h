@@ -16,6 +16,7 @@ struct pel_world {
     size_t cell_count; // of all parts (shared/grid.h)
     int cell_side;     // voxels along a side of a cell
     bool pool;         // bricks come from a pool
+    bool border;       // bricks have a border
     // What the kernel must be able to do.
     int voxels;         // classes of voxels, VOXELS_*
     int filters;        // FILTERS_*
