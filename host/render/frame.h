@@ -16,7 +16,8 @@ struct pel_glasses {
 // Whose eyes see a frame. Zero-initialise: one, that of the scene's camera.
 struct pel_frame_eyes {
     int eyes;                        // EYES_*, or 0
-    const struct pel_camera *second; // the first one's is the scene's
+    const struct pel_camera *second; // the first one's is the scene's. Levels of detail suit both,
+                                     // also where the frame is one eye's
     int weave[2]; // EYES_WOVEN: pixels where weave[0] x + weave[1] y is odd are the second eye's
     bool beside;  // EYES_BOTH, one ray a pixel: the second picture lies right of the first one
     const struct pel_glasses *glasses; // EYES_MERGED

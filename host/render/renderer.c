@@ -23,6 +23,7 @@
 #include "render/region.h"
 #include "render/residency.h"
 #include "render/resolve.h"
+#include "render/rounds.h"
 #include "render/target.h"
 #include "render/tiles.h"
 #include "render/settings.h"
@@ -47,6 +48,7 @@ struct pel_renderer {
     struct pel_buffer *sample_counts;
     size_t sample_counts_bytes;
     struct pel_pace pace;
+    bool warned; // of loops that the device would leave
 };
 
 // Time since *mark, which moves to now.
@@ -306,7 +308,7 @@ static struct pel_image *render_background(const struct pel_world *world) {
 
 static bool add_second(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_frame_eyes *eyes) {
-    if (!eyes->second)
+    if (eyes->eyes != EYES_BOTH && eyes->eyes != EYES_MERGED && eyes->eyes != EYES_WOVEN)
         return true;
     if (!pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave))
         return false;
@@ -371,7 +373,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_scene shown;
     if (!pel_region_check(&scene->render) ||
         !pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown) ||
-        !pel_detail_show(&renderer->detail, &shown))
+        !pel_detail_show(&renderer->detail, &shown, eyes->second))
         return NULL;
     pel_region_widen(&shown.render);
     if (!plan(renderer, &shown, eyes, &layout, &world, statistics))
@@ -388,6 +390,8 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     } else {
         struct pel_tiling tiling;
         struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &tiling, statistics);
+        pel_rounds_check(&renderer->warned, pel_device_describe(renderer->device), &world,
+                         statistics->skip);
         if (kernel)
             image = run(renderer, kernel, &shown, &world, eyes, &tiling, options, statistics);
     }
@@ -419,7 +423,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
                         scene->render.width, scene->render.height);
     struct pel_scene seen;
     if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen) ||
-        !pel_detail_show(&renderer->detail, &seen))
+        !pel_detail_show(&renderer->detail, &seen, NULL))
         return false;
     memset(seen.render.region, 0, sizeof seen.render.region);
     seen.render.debug = PEL_DEBUG_NONE;

@@ -95,9 +95,11 @@ static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_
                                       const struct pel_render_options *options,
                                       struct pel_render_statistics *statistics) {
     int width = seen->render.width, height = seen->render.height;
+    const struct pel_camera first = seen->camera;
     struct pel_image *both = NULL;
     *statistics = (struct pel_render_statistics){0};
     for (int i = 0; i < 2; i++) {
+        const struct pel_frame_eyes one = {.second = i == 0 ? second : &first};
         struct share share = {options, i / 2.0};
         struct pel_render_options of_eye = options ? *options : (struct pel_render_options){0};
         if (of_eye.progress) {
@@ -105,8 +107,7 @@ static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_
             of_eye.user = &share;
         }
         struct pel_render_statistics of_frame;
-        struct pel_image *eye =
-            pel_frame_render(renderer, seen, &(struct pel_frame_eyes){0}, &of_eye, &of_frame);
+        struct pel_image *eye = pel_frame_render(renderer, seen, &one, &of_eye, &of_frame);
         if (eye && !both)
             both = pel_image_create(width, 2 * height);
         if (!eye || !both) {
@@ -143,12 +144,13 @@ static bool check_reproject(const struct pel_scene *scene) {
 
 // Renders the pixels of the second eye that the first one's picture does not tell.
 static bool fill_holes(struct pel_renderer *renderer, const struct pel_scene *seen,
-                       const uint8_t *holes, struct pel_image *second,
-                       const struct pel_render_options *options,
+                       const struct pel_camera *first, const uint8_t *holes,
+                       struct pel_image *second, const struct pel_render_options *options,
                        struct pel_render_statistics *statistics) {
     struct pel_render_statistics of_holes;
-    struct pel_image *cast = pel_frame_render(
-        renderer, seen, &(struct pel_frame_eyes){.only = holes}, options, &of_holes);
+    struct pel_image *cast =
+        pel_frame_render(renderer, seen, &(struct pel_frame_eyes){.second = first, .only = holes},
+                         options, &of_holes);
     if (!cast)
         return false;
     size_t pixels = (size_t)second->width * (size_t)second->height;
@@ -186,8 +188,8 @@ static bool make_second(struct pel_renderer *renderer, struct pel_scene *seen,
     statistics->stereo.reproject_ms = pel_clock_ms() - begin_ms;
     statistics->stereo.reprojected = 1 - (double)hole_count / (double)pixels;
     seen->camera = cameras[1];
-    good = good &&
-           (hole_count == 0 || fill_holes(renderer, seen, holes, &second, options, statistics));
+    good = good && (hole_count == 0 ||
+                    fill_holes(renderer, seen, &cameras[0], holes, &second, options, statistics));
     free(depth);
     free(holes);
     return good;
@@ -206,7 +208,7 @@ static struct pel_image *render_reprojected(struct pel_renderer *renderer, struc
         of_eye.progress = report_share;
         of_eye.user = &share;
     }
-    const struct pel_frame_eyes with_depth = {.eyes = EYES_DEPTH};
+    const struct pel_frame_eyes with_depth = {.eyes = EYES_DEPTH, .second = &cameras[1]};
     struct pel_image *both = pel_frame_render(renderer, seen, &with_depth, &of_eye, statistics);
     share.begin = 0.5;
     if (both && make_second(renderer, seen, cameras, both, &of_eye, statistics))
