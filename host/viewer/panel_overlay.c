@@ -150,8 +150,8 @@ static void draw_values(struct pel_state *state, const struct pel_view *view,
     for (int i = -1; i < pick->count; i++, y += line_px) {
         const struct pel_instance *instance = &state->scene->instances[i < 0 ? 0 : i];
         if (i >= 0 && !pick->values[i].inside)
-            continue;
-        if (i >= 0)
+            snprintf(text, sizeof text, "%s: outside", instance->name);
+        else if (i >= 0)
             snprintf(text, sizeof text, "%s %.5g %s", instance->name, pick->values[i].value,
                      state->scene->volumes[instance->volume]->unit);
         const double low[2] = {x - 4, y - 1};

@@ -35,6 +35,7 @@ both "still" 'shared buffer; \([0-9]*\) of \1 pictures'
 grep -q 'acquired 0' log && complain "nothing was shared"
 mv plain.ppm still.ppm
 both "interlaced eyes" 'shared buffer' --set stereo.kind=row-interlaced
+both "anaglyph" 'shared buffer' --set stereo.kind=dubois-red-cyan
 wall='{"columns": 2, "rows": 2}'
 both "wall, and light of neighbours" 'shared buffer; \([0-9]*\) of \1' --set "wall=$wall" \
     --set render.supersampling.n=2 --set render.supersampling.adaptive=0.05 --set render.supersampling.filter=gaussian
@@ -42,7 +43,8 @@ both "wall of two devices" 'pixel buffer (its device is another one)' \
     --set 'wall={"regions": [{"place": [0, 0, 0.5, 1]}, {"place": [0.5, 0, 0.5, 1], "device": "cpu"}]}'
 
 # What is put together here is not shared.
-both "anaglyph" 'pixel buffer (two eyes are put together on the host)' --set stereo.kind=dubois-red-cyan
+both "eyes above each other" 'pixel buffer (two eyes are put together on the host)' \
+    --set stereo.kind=top-bottom-half --size 240x136
 both "debug view" 'pixel buffer (a debug view is painted on the host)' --set render.debug=samples
 both "nothing" 'pixel buffer (there is nothing to render)' --set volumes.0.visible=false --set volumes.1.visible=false
 
