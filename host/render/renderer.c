@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "device/device.h"
 #include "render/bakery.h"
+#include "render/counts.h"
 #include "render/debug.h"
 #include "render/detail.h"
 #include "render/frame.h"
@@ -22,6 +23,7 @@
 #include "render/region.h"
 #include "render/residency.h"
 #include "render/resolve.h"
+#include "render/rounds.h"
 #include "render/target.h"
 #include "render/tiles.h"
 #include "render/settings.h"
@@ -46,6 +48,7 @@ struct pel_renderer {
     struct pel_buffer *sample_counts;
     size_t sample_counts_bytes;
     struct pel_pace pace;
+    bool warned; // of loops that the device would leave
 };
 
 // Time since *mark, which moves to now.
@@ -129,28 +132,6 @@ static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
     return pel_device_finish(renderer->device);
 }
 
-// Adds up what the packets have counted.
-static void count_samples(struct pel_renderer *renderer, const struct pel_world *world,
-                          const struct pel_tiling *tiling,
-                          struct pel_render_statistics *statistics) {
-    size_t packets = tiling->tiles * tiling->packets_per_tile;
-    size_t pictures = (size_t)pel_world_pictures(world);
-    uint32_t(*counts)[SAMPLE_COUNTS] = pel_allocate(packets, sizeof *counts);
-    uint64_t possible = 0;
-    if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts)) {
-        for (size_t i = 0; i < packets; i++) {
-            statistics->samples += counts[i][SAMPLES_TAKEN];
-            statistics->stereo.eye_samples[i / tiling->packets_per_tile % pictures] +=
-                counts[i][SAMPLES_TAKEN];
-            statistics->samples_terminated += counts[i][SAMPLES_BEHIND];
-            possible += counts[i][SAMPLES_POSSIBLE];
-        }
-        statistics->samples_skipped =
-            possible - statistics->samples - statistics->samples_terminated;
-    }
-    free(counts);
-}
-
 // The work-group that the user, the device or the kernel allows: a power of two.
 static size_t choose_group(const struct pel_renderer *renderer, const struct pel_kernel *kernel) {
     int wanted = renderer->options.work_group;
@@ -183,7 +164,8 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
 
     *tiling = pel_tiles_plan(&scene->render, pel_world_pictures(world), lanes,
                              choose_group(renderer, kernel));
-    size_t packets = (tiling->tiles + tiling->tiles_per_group) * tiling->packets_per_tile;
+    size_t packets = (tiling->tiles + tiling->tiles_per_group) * tiling->packets_per_tile *
+                     (size_t)pel_world_eyes(world);
     if (!pel_residency_update(&renderer->residency, scene, layout, world) ||
         !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
                            (world->eyes == EYES_ONE ? 1 : 2) * sizeof world->bytes.camera,
@@ -242,7 +224,8 @@ static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
                        const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
                        const struct pel_render_options *options,
                        struct pel_render_statistics *statistics) {
-    statistics->rays = count_pixels(world);
+    statistics->rays = (uint64_t)world->bytes.width * (uint64_t)world->bytes.height *
+                       (uint64_t)pel_world_eyes(world);
     statistics->refined = 1;
     if (eyes->only)
         return run_only(renderer, kernel, world, tiling, eyes->only, options, statistics);
@@ -277,9 +260,11 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
                              const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
+    int across = pel_world_across(world), planes = pel_world_planes(world);
     struct pel_image *image =
-        pel_share_create_image(&renderer->share, renderer->device, &scene->render,
-                               pel_world_planes(world), options, statistics);
+        across > 1 ? pel_image_create(across * scene->render.width, planes * scene->render.height)
+                   : pel_share_create_image(&renderer->share, renderer->device, &scene->render,
+                                            planes, options, statistics);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
         return NULL;
@@ -298,23 +283,41 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
         pel_image_destroy(image);
         return NULL;
     }
-    count_samples(renderer, world, tiling, statistics);
+    pel_counts_add(renderer->sample_counts, tiling, pel_world_eyes(world),
+                   pel_world_pictures(world), statistics);
     statistics->download_ms = lap_ms(&mark);
     return image;
 }
 
 // The picture of nothing: the background.
 static struct pel_image *render_background(const struct pel_world *world) {
-    struct pel_image *image =
-        pel_image_create(world->bytes.width, pel_world_planes(world) * world->bytes.height);
+    struct pel_image *image = pel_image_create(pel_world_across(world) * world->bytes.width,
+                                               pel_world_planes(world) * world->bytes.height);
     if (!image)
         return NULL;
+    const struct world *bytes = &world->bytes;
+    const float4 *colour =
+        world->eyes == EYES_MERGED ? &bytes->merged_background : &bytes->background;
     size_t pixels = count_pixels(world);
     for (size_t i = 0; i < pixels; i++)
-        memcpy(&image->rgba[4 * i], &world->bytes.background, sizeof world->bytes.background);
+        memcpy(&image->rgba[4 * i], colour, sizeof *colour);
     for (size_t i = pixels; i < (size_t)image->width * (size_t)image->height; i++)
         image->rgba[4 * i] = FLT_MAX;
     return image;
+}
+
+static bool add_second(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_frame_eyes *eyes) {
+    if (eyes->eyes != EYES_BOTH && eyes->eyes != EYES_MERGED && eyes->eyes != EYES_WOVEN)
+        return true;
+    if (!pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave))
+        return false;
+    if (eyes->eyes == EYES_MERGED)
+        pel_world_merge_eyes(world, eyes->glasses->matrix, eyes->glasses->linear,
+                             eyes->glasses->background);
+    if (eyes->beside)
+        pel_world_lay_beside(world);
+    return true;
 }
 
 // Plans where the voxels lie and makes the world's bytes, which go by that. Zeroes the statistics.
@@ -339,7 +342,7 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     }
     size_t pixel_bytes = (size_t)pel_world_planes(world) * sizeof(float4) +
                          (world->supersampling ? PEL_RESOLVE_BYTES : 0);
-    if ((eyes->second && !pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave)) ||
+    if (!add_second(world, scene, eyes) ||
         !pel_residency_check(layout, &limits, count_pixels(world) * pixel_bytes)) {
         pel_world_finish(world);
         return false;
@@ -370,7 +373,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_scene shown;
     if (!pel_region_check(&scene->render) ||
         !pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown) ||
-        !pel_detail_show(&renderer->detail, &shown))
+        !pel_detail_show(&renderer->detail, &shown, eyes->second))
         return NULL;
     pel_region_widen(&shown.render);
     if (!plan(renderer, &shown, eyes, &layout, &world, statistics))
@@ -387,6 +390,8 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     } else {
         struct pel_tiling tiling;
         struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &tiling, statistics);
+        pel_rounds_check(&renderer->warned, pel_device_describe(renderer->device), &world,
+                         statistics->skip);
         if (kernel)
             image = run(renderer, kernel, &shown, &world, eyes, &tiling, options, statistics);
     }
@@ -418,7 +423,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
                         scene->render.width, scene->render.height);
     struct pel_scene seen;
     if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen) ||
-        !pel_detail_show(&renderer->detail, &seen))
+        !pel_detail_show(&renderer->detail, &seen, NULL))
         return false;
     memset(seen.render.region, 0, sizeof seen.render.region);
     seen.render.debug = PEL_DEBUG_NONE;

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "output/image.h"
 
 enum { GROUP = 16 };
 
@@ -22,13 +23,13 @@ struct pel_image *pel_share_create_image(const struct pel_share *share,
                                          struct pel_render_statistics *statistics) {
     int width = settings->width, height = pictures * settings->height;
     if (!options || !options->gl_buffer)
-        return pel_image_create(width, height);
+        return pel_image_create_undefined(width, height);
     const char *reason = share->broken[0]                    ? share->broken
                          : settings->debug != PEL_DEBUG_NONE ? "a debug view is painted on the host"
                                                              : pel_device_unshared(device);
     snprintf(statistics->gl_reason, sizeof statistics->gl_reason, "%s", reason);
     if (reason[0])
-        return pel_image_create(width, height);
+        return pel_image_create_undefined(width, height);
     struct pel_image *image = pel_allocate(1, sizeof *image);
     if (image)
         *image = (struct pel_image){width, height, NULL};

@@ -17,8 +17,9 @@ struct pel_share {
     char broken[PEL_GL_REASON_BYTES]; // why sharing failed, after which it is not tried again
 };
 
-// An image for so many pictures above each other: without pixels when they can stay on the device
-// for the buffer that the options name. Where that is wanted and cannot be, the statistics say why.
+// An image of any content for so many pictures above each other: without pixels when they can stay
+// on the device for the buffer that the options name. Where that is wanted and cannot be, the
+// statistics say why.
 struct pel_image *pel_share_create_image(const struct pel_share *share,
                                          const struct pel_device *device,
                                          const struct pel_render_settings *settings, int pictures,

@@ -14,7 +14,7 @@ declare -A below=(
     [base]="" [device]="" [volume]="" [transfer]="" [camera]="" [output]=""
     [accel]="volume transfer"
     [world]="volume transfer camera accel"
-    [render]="device world accel camera volume"
+    [render]="device world accel camera volume output"
     [viewer]=""
     [cli]="viewer"
 )
