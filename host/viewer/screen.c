@@ -91,8 +91,8 @@ static void open_lender(struct pel_state *state) {
 
 bool pel_screen_open(struct pel_state *state, char *sentence, size_t bytes) {
     if (state->options->full_screen > pel_window_monitor_count()) {
-        snprintf(sentence, bytes, "there is no monitor %d, but %d of them",
-                 state->options->full_screen, pel_window_monitor_count());
+        snprintf(sentence, bytes, "there is no monitor %d: they are counted from 0 to %d",
+                 state->options->full_screen - 1, pel_window_monitor_count() - 1);
         return false;
     }
     bool wall = state->options->scene->wall.region_count > 0;

@@ -177,6 +177,37 @@ static GLFWmonitor *find_monitor(int number) {
     return number >= 1 && number <= count ? monitors[number - 1] : NULL;
 }
 
+// Where a window of this size goes on a monitor: into its middle, and not beyond its edges.
+static void place_on(GLFWmonitor *monitor, int place[4]) {
+    int area[4];
+    glfwGetMonitorWorkarea(monitor, &area[0], &area[1], &area[2], &area[3]);
+    for (int axis = 0; axis < 2; axis++) {
+        if (place[2 + axis] > area[2 + axis])
+            place[2 + axis] = area[2 + axis];
+        place[axis] = area[axis] + (area[2 + axis] - place[2 + axis]) / 2;
+    }
+}
+
+// The monitor keeps its mode. Window managers take the monitor that a window is on, so it has to be
+// there already.
+static void fill_monitor(GLFWwindow *handle, GLFWmonitor *monitor) {
+    const GLFWvidmode *mode = glfwGetVideoMode(monitor);
+    glfwSetWindowMonitor(handle, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+// Lets the desktop do it, which answers when it likes, so that the first picture has the right
+// size.
+static void wait_for_size(GLFWwindow *handle, GLFWmonitor *monitor) {
+    const GLFWvidmode *mode = glfwGetVideoMode(monitor);
+    int width = 0, height = 0;
+    for (int i = 0; i < 50; i++) {
+        glfwGetWindowSize(handle, &width, &height);
+        if (width == mode->width && height == mode->height)
+            return;
+        glfwWaitEventsTimeout(0.01);
+    }
+}
+
 static void listen(GLFWwindow *handle) {
     glfwSetCursorPosCallback(handle, on_pointer);
     glfwSetMouseButtonCallback(handle, on_button);
@@ -209,27 +240,32 @@ struct pel_window *pel_window_create(const struct pel_window_options *options,
     window->number = options->number;
     memcpy(window->place, options->place, sizeof window->place);
     GLFWmonitor *monitor = find_monitor(options->monitor);
-    int width = options->place[2], height = options->place[3];
-    if (monitor) {
-        const GLFWvidmode *mode = glfwGetVideoMode(monitor);
-        width = mode->width, height = mode->height;
-    }
+    bool placed = options->placed || monitor;
+    if (monitor)
+        place_on(monitor, window->place);
     hint();
+    // The picture stays where it is while the hand is on another monitor, or in another window of a
+    // wall.
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
     glfwWindowHint(GLFW_DECORATED, !options->unadorned);
-    glfwWindowHint(GLFW_VISIBLE, monitor || !options->placed);
-    window->handle = glfwCreateWindow(width, height, options->title, monitor,
+    glfwWindowHint(GLFW_VISIBLE, !placed);
+    window->handle = glfwCreateWindow(window->place[2], window->place[3], options->title, NULL,
                                       options->shares ? options->shares->handle : NULL);
     if (!window->handle) {
         fail(sentence, bytes, "no window with OpenGL 3.3 can be opened");
         free(window);
         return NULL;
     }
-    if (!monitor && options->placed) {
-        glfwSetWindowPos(window->handle, options->place[0], options->place[1]);
+    if (placed) {
+        glfwSetWindowPos(window->handle, window->place[0], window->place[1]);
         glfwShowWindow(window->handle);
     }
     glfwSetWindowUserPointer(window->handle, window);
     listen(window->handle);
+    if (monitor) {
+        fill_monitor(window->handle, monitor);
+        wait_for_size(window->handle, monitor);
+    }
     glfwMakeContextCurrent(window->handle);
     glfwSwapInterval(options->follows ? 0 : 1);
     return window;
@@ -351,8 +387,7 @@ void pel_window_toggle_full_screen(struct pel_window *window) {
         return;
     glfwGetWindowPos(handle, &place[0], &place[1]);
     glfwGetWindowSize(handle, &place[2], &place[3]);
-    const GLFWvidmode *mode = glfwGetVideoMode(monitor);
-    glfwSetWindowMonitor(handle, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    fill_monitor(handle, monitor);
 }
 
 void pel_window_name(struct pel_window *window, const char *title) {

@@ -30,6 +30,7 @@ struct object {
     GLuint name;
     size_t bytes;
     enum state state;
+    cl_command_queue queue; // that releases it
 };
 
 struct argument {
@@ -177,7 +178,8 @@ static void check_use(cl_mem memory, const char *what) {
 static void settle(cl_command_queue queue) {
     for (int i = 0; i < OBJECTS; i++) {
         struct object *object = &objects[i];
-        void *content = object->memory && object->state == RELEASING ? malloc(object->bytes) : NULL;
+        bool done = object->memory && object->state == RELEASING && object->queue == queue;
+        void *content = done ? malloc(object->bytes) : NULL;
         if (!content)
             continue;
         if (target->clEnqueueReadBuffer(queue, object->memory, CL_TRUE, 0, object->bytes, content,
@@ -203,7 +205,7 @@ static cl_mem CL_API_CALL create_from_buffer(cl_context context, cl_mem_flags fl
     while (memory && i < OBJECTS && objects[i].memory)
         i++;
     if (memory && i < OBJECTS)
-        objects[i] = (struct object){memory, name, bytes, OF_OPENGL};
+        objects[i] = (struct object){.memory = memory, .name = name, .bytes = bytes};
     pthread_mutex_unlock(&mutex);
     if (status)
         *status = result;
@@ -239,6 +241,7 @@ static cl_int CL_API_CALL release(cl_command_queue queue, cl_uint count, const c
             continue;
         }
         object->state = RELEASING;
+        object->queue = queue;
         released_count++;
     }
     pthread_mutex_unlock(&mutex);
