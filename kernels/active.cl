@@ -28,7 +28,8 @@ INLINE void join_active(__constant struct world *world, __global const uchar *ce
         const int c = crossing->order[active->joined];
 #if LATE_CURSORS
         struct cursor *cursor = &crossing->cursors[c];
-        cursor->next = cursor_leap(&world->parts[crossing->parts[c]], cells, cursor, cursor->first);
+        cursor->next = cursor_leap(&world->parts[crossing->parts[c]], cells, cursor, cursor->first,
+                                   (mask)(-1));
         if (!any_lane(MASK(cursor->next < cursor->end)))
             continue;
 #endif

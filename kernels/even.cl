@@ -3,6 +3,7 @@
 #define EVEN_CL
 
 #define STRIDE_PARAMETER
+#define STRIDE_ARGUMENT
 #define BEGIN_STRIDES(crossing)
 #define COUNT_SPARED(crossing, length, present)
 #define SPARED(crossing) 0u

@@ -96,7 +96,7 @@ INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table
     }
 #endif
     if (!any_lane(seen))
-        spot.cursor->next = cursor_leap(spot.part, cells, spot.cursor, spot.i + 1);
+        spot.cursor->next = cursor_leap(spot.part, cells, spot.cursor, spot.i + 1, present);
 #endif
     return seen;
 }

@@ -46,7 +46,7 @@ INLINE void begin_obstacle(struct obstacle *obstacle, __constant struct world *w
     struct cursor *cursor = &obstacle->cursor;
     *cursor = cursor_begin(world, part, &ray_voxel, &span, t_near, step_mm);
     if (any_lane(MASK(cursor->first < cursor->end)))
-        cursor->next = cursor_leap(part, cells, cursor, cursor->first);
+        cursor->next = cursor_leap(part, cells, cursor, cursor->first, (mask)(-1));
 #if MODELS & MODELS_ISO
     obstacle->raw = (real)(0.0f);
     obstacle->at = (integer)(-2);
@@ -75,7 +75,7 @@ INLINE real cross_surfaces(__constant struct part *part, __global const uchar *c
     obstacle->at = CHOOSE(obstacle->at, i, present);
     struct cursor *cursor = &obstacle->cursor;
     const integer least = max(cursor->next, i + 1);
-    cursor->next = max(cursor_leap(part, cells, cursor, i + 1) - 1, least);
+    cursor->next = max(cursor_leap(part, cells, cursor, i + 1, present) - 1, least);
     return depth;
 }
 #endif
@@ -164,7 +164,7 @@ INLINE real meet(__constant struct world *world, TABLE_SPACE const uint *table,
     if (any_lane(MASK(strength > 0.0f)))
         obstruct(world, part, mixture, strength);
     else
-        cursor->next = cursor_leap(part, cells, cursor, i + 1);
+        cursor->next = cursor_leap(part, cells, cursor, i + 1, present);
     return (real)(0.0f);
 }
 

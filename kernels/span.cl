@@ -23,14 +23,12 @@
 #if SKIP == SKIP_NONE
 #include "traverse/none.cl"
 #else
-#if SKIP == SKIP_OCTREE
-#include "traverse/octree.cl"
-#elif SKIP == SKIP_BVH
+#if SKIP == SKIP_BVH
 #include "traverse/bvh.cl"
 #elif SKIP == SKIP_BLOCKS
 #include "traverse/blocks.cl"
 #else
-#include "traverse/grid.cl"
+#include "traverse/cells.cl"
 #endif
 #endif
 
@@ -158,10 +156,10 @@ INLINE void place_in_order(struct crossing *crossing, int c, int entry) {
 INLINE void pass_over(__constant struct part *part, __global const uchar *cells,
                       struct cursor *cursor, integer i, mask present) {
 #if MIXING == MIXING_ORDERED
-    const integer next = cursor_leap(part, cells, cursor, cursor->next);
+    const integer next = cursor_leap(part, cells, cursor, cursor->next, present);
     cursor->next = CHOOSE(cursor->next, next, present);
 #else
-    cursor->next = cursor_leap(part, cells, cursor, i + 1);
+    cursor->next = cursor_leap(part, cells, cursor, i + 1, present);
 #endif
 }
 
@@ -219,8 +217,7 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
         crossing->possible +=
             CHOOSE((integer)(0), cursor.end - cursor.first, MASK(cursor.first < cursor.end));
 #if !LATE_CURSORS
-        if (any_lane(MASK(cursor.first < cursor.end)))
-            cursor.next = cursor_leap(part, cells, &cursor, cursor.first);
+        cursor.next = cursor_leap(part, cells, &cursor, cursor.first, (mask)(-1));
 #endif
         // With runs of samples all parts count, so that these are the same whatever is skipped.
         const integer seen = ADAPTIVE ? cursor.first : cursor.next;

@@ -10,6 +10,7 @@
 #include "shared/grid.h"
 
 #define STRIDE_PARAMETER , __global const uchar *strides
+#define STRIDE_ARGUMENT , strides
 #define BEGIN_STRIDES(crossing)                                                                    \
     (crossing).strides = strides;                                                                  \
     (crossing).spared = (integer)(0)

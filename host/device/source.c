@@ -15,7 +15,7 @@
 #include "base/memory.h"
 #include "device/kernel_table.h"
 
-enum { INCLUDE_MAX = 64, NAME_BYTES = 256, KERNEL_FILE_LIMIT = 1 << 20 };
+enum { INCLUDE_MAX = 128, NAME_BYTES = 256, KERNEL_FILE_LIMIT = 1 << 20 };
 
 struct expansion {
     FILE *out;

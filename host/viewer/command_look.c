@@ -99,6 +99,13 @@ static bool change_eyes(struct pel_state *state, enum pel_action action) {
         state->scene->stereo.swap = !state->scene->stereo.swap;
         pel_state_change(state, "exchange the eyes");
         return true;
+    case PEL_ACTION_REPROJECT:
+        state->scene->stereo.reproject = !state->scene->stereo.reproject;
+        pel_state_say(state, state->scene->stereo.reproject
+                                 ? "the second eye comes from the first one's picture"
+                                 : "both eyes are rendered");
+        pel_state_change(state, "reprojection");
+        return true;
     case PEL_ACTION_NARROWER:
     case PEL_ACTION_WIDER:
         scale_length(state, true, action == PEL_ACTION_WIDER ? 1.1 : 1 / 1.1);
@@ -183,10 +190,8 @@ static bool change_cuts(struct pel_state *state, enum pel_action action) {
 static bool change_comparison(struct pel_state *state, enum pel_action action) {
     if (action != PEL_ACTION_COMPARE && action != PEL_ACTION_COMPARE_BACK)
         return false;
-    int mode = (int)state->compare.mode;
-    do
-        mode = next(mode, action == PEL_ACTION_COMPARE ? 1 : -1, pel_compare_names());
-    while (!pel_show_can(state, (enum pel_compare_mode)mode));
+    int mode =
+        next((int)state->compare.mode, action == PEL_ACTION_COMPARE ? 1 : -1, pel_compare_names());
     pel_show_set_mode(state, (enum pel_compare_mode)mode);
     pel_state_say(state, "compare: %s", pel_compare_names()[mode]);
     return true;

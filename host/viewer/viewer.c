@@ -41,9 +41,11 @@ static double target_ms(const struct pel_state *state) {
 
 // Gives the worker the scene as it is now, once for each view.
 static void send(struct pel_state *state, bool moving) {
-    struct pel_request request = {
-        .id = state->version, .moving = moving, .target_ms = target_ms(state)};
     int count = pel_show_scene_count(state);
+    struct pel_request request = {.id = state->version,
+                                  .moving = moving,
+                                  .compared = count > state->picture_count,
+                                  .target_ms = target_ms(state)};
     for (int i = 0; i < count; i++) {
         request.scenes[i] = pel_show_scene(state, i);
         if (!request.scenes[i]) {
@@ -77,6 +79,7 @@ static void take_picture(struct pel_state *state) {
     state->shown = *picture;
     pel_show_take(state, picture);
     state->shown_count++;
+    state->shared_count += pel_show_presented(state)[0] == '\0';
     state->redraw = true;
 }
 
@@ -222,6 +225,12 @@ static bool is_over(const struct pel_state *state) {
     return options->screenshot && options->frames == 0 && is_resting(state);
 }
 
+// So many pictures are shown that the same one is rendered again where nobody asks for another.
+static bool is_again_due(const struct pel_state *state) {
+    return state->options->frames > 0 && !state->quit && is_resting(state) &&
+           (!state->script || pel_script_is_over(state->script));
+}
+
 // A long frame's progress is drawn from time to time; drawing costs what rendering could use.
 static bool is_progress_due(const struct pel_state *state, bool was_busy) {
     bool ended = was_busy && !state->status.busy;
@@ -238,6 +247,8 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
             pel_latency_begin_turn(state->latency, state);
         play_script(state);
         react_to_all(state);
+        if (is_again_due(state))
+            pel_state_renew(state);
         ask_for_picture(state);
         take_picture(state);
         pel_show_update(state);
@@ -252,6 +263,11 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
     }
     if (state->latency)
         pel_latency_report(state->latency, state, state->options->latency);
+    struct pel_viewer_report *report = state->options->report;
+    if (report) {
+        *report = (struct pel_viewer_report){state->shown_count, state->shared_count, ""};
+        snprintf(report->reason, sizeof report->reason, "%s", pel_show_presented(state));
+    }
     const char *path = state->options->screenshot;
     if (path && !pel_screen_save(state, path))
         return fail(sentence, bytes, pel_error_code(), pel_error_message());
@@ -284,7 +300,7 @@ static enum pel_error start(struct pel_state *state, char *sentence, size_t byte
         if (!state->script)
             return PEL_ERROR_FORMAT;
     }
-    state->worker = pel_worker_create(&state->options->renderer, pel_window_wake);
+    state->worker = pel_worker_create(&state->options->renderer, state->lender, pel_window_wake);
     if (!state->worker)
         return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot start the rendering thread");
     if (state->options->latency)

@@ -70,7 +70,8 @@ INLINE real raw_before(__constant struct world *world, MEMORY_PARAMETERS,
 // After a segment that shows nothing: a segment leads out of empty space only behind the first sample that is not in it.
 INLINE void leap_segments(__global const uchar *cells, const struct spot *spot) {
     struct cursor *cursor = spot->cursor;
-    cursor->next = max(cursor_leap(spot->part, cells, cursor, spot->i), spot->i + 1);
+    cursor->next =
+        max(cursor_leap(spot->part, cells, cursor, spot->i, spot->present), spot->i + 1);
 }
 #endif
 

@@ -1,11 +1,12 @@
-// blocks.cl - skips by two-level sparse blocks: a hierarchy leads to the first one, and from there rays walk from block
-// to block (Derin et al. 2021, block walking and culling).
+// blocks.cl - skips by two-level sparse blocks: a hierarchy leads to the first one, and from there
+// rays walk from block to block (Derin et al. 2021, block walking and culling).
 //
-// In a block the ray goes from sub-block to sub-block, past those that are not stored or in which nothing can be seen. A
-// block of which no bin of values can be seen is left at once. Behind a block the ray is in one that lies beside it and
-// is known to it, or in none; only then is the hierarchy searched again, whose nodes are culled by their bins.
-// A cursor keeps where its ray leaves a sub-block with something in it, and until then there is nothing to do.
-// Included by span.cl.
+// In a block the ray goes from sub-block to sub-block, past those that are not stored or in which
+// nothing can be seen. A block of which no bin of values can be seen is left at once. Behind a
+// block the ray is in one that lies beside it and is known to it, or in none; only then is the
+// hierarchy searched again, whose nodes are culled by their bins. A cursor keeps where its ray
+// leaves a sub-block with something in it, and until then there is nothing to do. Included by
+// span.cl.
 #ifndef BLOCKS_CL
 #define BLOCKS_CL
 
@@ -18,24 +19,21 @@
 #define LOAD_SEEN(at) seen[at]
 
 // A sixth, of what is less than 2^15 and not negative.
-#define BLOCK_OF(sub_block) ((sub_block) * 10923 >> 16)
+#define BLOCK_OF(sub_block) ((sub_block)*10923 >> 16)
 
 // Where a ray is at some sample.
 struct block_place {
-    real x, y, z;
+    struct place at;
     integer sx, sy, sz; // sub-block
     integer bx, by, bz; // block
 };
 
 INLINE struct block_place find_place(const struct cursor *cursor, integer i, int bits) {
-    const real t = TO_REAL(cursor_clamp(cursor, i));
     struct block_place place;
-    place.x = cursor->ox + t * cursor->dx;
-    place.y = cursor->oy + t * cursor->dy;
-    place.z = cursor->oz + t * cursor->dz;
-    place.sx = TO_INTEGER(place.x) >> bits;
-    place.sy = TO_INTEGER(place.y) >> bits;
-    place.sz = TO_INTEGER(place.z) >> bits;
+    place.at = cursor_place(cursor, i);
+    place.sx = TO_INTEGER(place.at.x) >> bits;
+    place.sy = TO_INTEGER(place.at.y) >> bits;
+    place.sz = TO_INTEGER(place.at.z) >> bits;
     place.bx = BLOCK_OF(place.sx);
     place.by = BLOCK_OF(place.sy);
     place.bz = BLOCK_OF(place.sz);
@@ -46,8 +44,8 @@ INLINE mask is_beside(integer offset) {
     return MASK(offset >= -1) & MASK(offset <= 1);
 }
 
-// Goes on to the block that a ray is in now, from the one it was in. The lanes in which it is none that is known from
-// there.
+// Goes on to the block that a ray is in now, from the one it was in. The lanes in which it is none
+// that is known from there.
 INLINE mask walk(__global const int *words, struct cursor *cursor, const struct block_place *place,
                  mask asks) {
     const integer packed =
@@ -75,8 +73,8 @@ INLINE __global const struct bvh_node *part_nodes(__constant struct part *part,
     return nodes ? (__global const struct bvh_node *)(cells + nodes) : 0;
 }
 
-// Searches the hierarchy for the blocks that lost rays enter next, and moves them there. The lanes that rounding leaves
-// just outside of a block: they take a sample.
+// Searches the hierarchy for the blocks that lost rays enter next, and moves them there. The lanes
+// that rounding leaves just outside of a block: they take a sample.
 INLINE mask enter_blocks(__global const struct block_grid *grid, __global const uchar *cells,
                          struct cursor *cursor, const struct block_place *place, integer *i,
                          mask lost) {
@@ -102,7 +100,8 @@ INLINE real samples_to_leave(real x, real delta, integer sub_block, integer bloc
     return samples_to_plane(x, delta, plane);
 }
 
-// Passes what is empty of the blocks that rays are in. The lanes in which there is something to see.
+// Passes what is empty of the blocks that rays are in. The lanes in which there is something to
+// see.
 INLINE mask pass_sub_blocks(__global const struct block_grid *grid, __global const uchar *cells,
                             struct cursor *cursor, const struct block_place *place, integer *i,
                             mask asks) {
@@ -126,20 +125,22 @@ INLINE mask pass_sub_blocks(__global const struct block_grid *grid, __global con
         MASK((TO_INTEGER(GATHER(uchar, LOAD_SEEN, record)) & (int)grid->visible) != 0);
 
     const int bits = grid->bits;
-    real count = samples_to_leave(place->x, cursor->dx, place->sx, place->bx, culled, bits);
-    count = fmin(count, samples_to_leave(place->y, cursor->dy, place->sy, place->by, culled, bits));
-    count = fmin(count, samples_to_leave(place->z, cursor->dz, place->sz, place->bz, culled, bits));
+    real count = samples_to_leave(place->at.x, cursor->dx, place->sx, place->bx, culled, bits);
+    count =
+        fmin(count, samples_to_leave(place->at.y, cursor->dy, place->sy, place->by, culled, bits));
+    count =
+        fmin(count, samples_to_leave(place->at.z, cursor->dz, place->sz, place->bz, culled, bits));
     const integer behind = *i + whole_leap(count);
     cursor->inside = CHOOSE(cursor->inside, behind, full);
     *i = CHOOSE(*i, behind, asks & ~full);
     return full;
 }
 
-// The next sample from i on that may be visible.
+// The next sample from i on that may be visible, in the lanes that ask.
 INLINE integer cursor_leap(__constant struct part *part, __global const uchar *cells,
-                           struct cursor *cursor, integer i) {
+                           struct cursor *cursor, integer i, mask asks) {
     i = max(i, cursor->next);
-    mask asks = MASK(i < cursor->end) & MASK(i >= cursor->inside);
+    asks &= MASK(i < cursor->end) & MASK(i >= cursor->inside);
     if (any_lane(asks)) {
         __global const struct block_grid *grid =
             &((__global const struct block_grid *)cells)[part->number];

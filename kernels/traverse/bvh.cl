@@ -14,18 +14,20 @@
     ((__global const struct bvh_node *)((cells) + WORLD_PART_MAX * sizeof(int)))
 #define BVH_ROOT(cells, part) ((__global const int *)(cells))[(part)->number]
 
-// The hierarchy of a part, or NULL where nothing is visible. Links count from the part's own first node.
+// The hierarchy of a part, or NULL where nothing is visible. Links count from the part's own first
+// node.
 INLINE __global const struct bvh_node *part_nodes(__constant struct part *part,
                                                   __global const uchar *cells) {
     const int root = BVH_ROOT(cells, part);
     return root < 0 ? 0 : BVH_NODES(cells) + root;
 }
 
-// The next sample from i on that may be visible.
+// The next sample from i on that may be visible, in the lanes that ask.
 INLINE integer cursor_leap(__constant struct part *part, __global const uchar *cells,
-                           struct cursor *cursor, integer i) {
+                           struct cursor *cursor, integer i, mask asks) {
     i = max(i, cursor->next);
-    const mask runs = MASK(i < cursor->end), asks = runs & MASK(i >= cursor->inside);
+    const mask runs = MASK(i < cursor->end);
+    asks &= runs & MASK(i >= cursor->inside);
     if (!any_lane(asks))
         return CHOOSE((integer)(SAMPLE_NEVER), i, runs);
     const struct leaf cluster = find_leaf(part_nodes(part, cells), 0, cursor, TO_REAL(i), asks);

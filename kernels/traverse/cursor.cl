@@ -1,8 +1,8 @@
 // cursor.cl - what all ways to skip share: a packet's place in one part.
 //
-// A cursor answers one question, per lane: from sample i of this ray in this part, which is the next
-// sample that may be visible? The ray loop never knows which cursor it holds. Each way to skip is a file that
-// defines cursor_leap.
+// A cursor answers one question, per lane: from sample i of this ray in this part, which is the
+// next sample that may be visible? The ray loop never knows which cursor it holds. Each way to skip
+// is a file that defines cursor_leap.
 #ifndef CURSOR_CL
 #define CURSOR_CL
 
@@ -17,8 +17,9 @@
 
 #define SAMPLE_NEVER INT_MAX // the part has nothing more to show
 
-// The samples first <= i < end of a ray lie inside the part, and none before `next` may be visible. Positions
-// in memory coordinates are origin + i * delta; lanes that miss the part rest at a safe place inside it.
+// The samples first <= i < end of a ray lie inside the part, and none before `next` may be visible.
+// Positions in memory coordinates are origin + i * delta; lanes that miss the part rest at a safe
+// place inside it.
 struct cursor {
     integer first, end, next;
 #if SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
@@ -37,10 +38,17 @@ INLINE integer sample_at(real t, real t_near, ray_phase phase, float per_mm) {
     return TO_INTEGER(clamp(number, 0.0f, 1e9f));
 }
 
+// How far a ray moves along an axis from sample to sample: never 0, because leaps divide by it, but
+// where it runs along the cells' walls, or not at all, so little that it never leaves them.
+INLINE real move_along(real delta, mask runs) {
+    const mask moves = runs & MASK(fabs(delta) > 1e-20f);
+    return CHOOSE((real)(1e-20f), delta, moves);
+}
+
 // Places the cursor at the start of the part, whose samples are `step_mm` apart.
 INLINE struct cursor cursor_begin(__constant struct world *world, __constant struct part *part,
-                                  const struct ray *ray_voxel, const struct span *span,
-                                  real t_near, float step_mm) {
+                                  const struct ray *ray_voxel, const struct span *span, real t_near,
+                                  float step_mm) {
     const float per_mm = 1.0f / step_mm;
     // A short span may lie between two samples: then there is nothing to show either.
     const ray_phase phase = RAY_PHASE(world, ray_voxel);
@@ -60,13 +68,13 @@ INLINE struct cursor cursor_begin(__constant struct world *world, __constant str
 
     const real t_first = t_near + phase * step_mm;
     const float4 shift = part->memory_from_voxel;
-    const real zero = (real)(0.0f), one = (real)(1.0f);
+    const real one = (real)(1.0f);
     cursor.ox = CHOOSE(one, ray_voxel->ox + t_first * ray_voxel->dx + shift.x, runs);
     cursor.oy = CHOOSE(one, ray_voxel->oy + t_first * ray_voxel->dy + shift.y, runs);
     cursor.oz = CHOOSE(one, ray_voxel->oz + t_first * ray_voxel->dz + shift.z, runs);
-    cursor.dx = CHOOSE(zero, step_mm * ray_voxel->dx, runs);
-    cursor.dy = CHOOSE(zero, step_mm * ray_voxel->dy, runs);
-    cursor.dz = CHOOSE(zero, step_mm * ray_voxel->dz, runs);
+    cursor.dx = move_along(step_mm * ray_voxel->dx, runs);
+    cursor.dy = move_along(step_mm * ray_voxel->dy, runs);
+    cursor.dz = move_along(step_mm * ray_voxel->dz, runs);
     return cursor;
 }
 

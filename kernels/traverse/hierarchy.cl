@@ -1,5 +1,6 @@
-// hierarchy.cl - the search for the leaf of a bounding volume hierarchy that a ray enters next, nearer children first,
-// with one short stack for the packet: a node is entered while some lane may find a nearer leaf below it.
+// hierarchy.cl - the search for the leaf of a bounding volume hierarchy that a ray enters next,
+// nearer children first, with one short stack for the packet: a node is entered while some lane may
+// find a nearer leaf below it.
 //
 // Included by span.cl before bvh.cl and blocks.cl.
 #ifndef HIERARCHY_CL
@@ -59,8 +60,7 @@ INLINE struct leaf find_leaf(__global const struct bvh_node *nodes, int visible,
             continue;
         struct span span = node_span(&nodes[n], cursor);
         span.near = fmax(span.near, from);
-        const mask nearer =
-            asks & MASK(span.near <= span.far) & MASK(span.near < found.span.near);
+        const mask nearer = asks & MASK(span.near <= span.far) & MASK(span.near < found.span.near);
         if (!any_lane(nearer))
             continue;
         const int link = nodes[n].link;
@@ -77,7 +77,8 @@ INLINE struct leaf find_leaf(__global const struct bvh_node *nodes, int visible,
     return found;
 }
 
-// The first sample at or behind the start of a leaf; a hundredth of a sample of rounding can only cost another look.
+// The first sample at or behind the start of a leaf; a hundredth of a sample of rounding can only
+// cost another look.
 INLINE integer leaf_entry(const struct leaf *leaf) {
     return TO_INTEGER(ceil(fmin(leaf->span.near, (real)(1e9f)) - 0.01f));
 }

@@ -1,7 +1,6 @@
-// leap.cl - what the ways to skip by cells share: how far to the next plane between them, and the
-// leap.
+// leap.cl - what the ways to skip by cells share: where a ray is, and how far to the next plane.
 //
-// Included by span.cl before grid.cl, octree.cl and blocks.cl.
+// Included by span.cl before cells.cl and blocks.cl.
 #ifndef LEAP_CL
 #define LEAP_CL
 
@@ -9,26 +8,28 @@
 
 #if SKIP != SKIP_NONE && SKIP != SKIP_BVH
 
+// A position in memory coordinates.
+struct place {
+    real x, y, z;
+};
+
+// Where a cursor's sample i is, or the sample of the part that is nearest to it.
+INLINE struct place cursor_place(const struct cursor *cursor, integer i) {
+    const real t = TO_REAL(cursor_clamp(cursor, i));
+    const struct place place = {cursor->ox + t * cursor->dx, cursor->oy + t * cursor->dy,
+                                cursor->oz + t * cursor->dz};
+    return place;
+}
+
 // How many samples from x on lie before the ray meets a plane between voxels, along one axis.
 INLINE real samples_to_plane(real x, real delta, integer plane) {
-    // A ray along the cells' walls never leaves them on this axis.
-    const real speed = CHOOSE(delta, (real)(1e-20f), MASK(fabs(delta) < 1e-20f));
-    return (TO_REAL(plane) - x) / speed;
+    return (TO_REAL(plane) - x) / delta;
 }
 
-// The number of samples to leap over, at least one, of `count` before a wall: a hundredth of a
-// sample less than computed, so that rounding can only cost another look.
+// The number of samples to leap over, at least one, of `count` before a wall: rounded up, from a
+// hundredth of a sample less than computed, so that rounding can only cost another look.
 INLINE integer whole_leap(real count) {
-    return max(TO_INTEGER(ceil(fmin(count, (real)(1e8f)) - 0.01f)), (integer)(1));
-}
-
-// The next sample from i on that may be visible: `count` samples behind `start`, the sample of the
-// part nearest to i, where that is in something empty.
-INLINE integer leap_from(const struct cursor *cursor, integer i, integer start, real count,
-                         mask empty) {
-    const integer leap = whole_leap(count);
-    const integer next = start + CHOOSE((integer)(0), leap, empty);
-    return CHOOSE((integer)(SAMPLE_NEVER), next, MASK(i < cursor->end) & MASK(next < cursor->end));
+    return max(TO_INTEGER(AT_MOST(count, (real)(1e8f)) + 0.99f), (integer)(1));
 }
 
 #endif
