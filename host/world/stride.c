@@ -65,8 +65,10 @@ static void find_entry(double entry[4], const float rgba[4], const struct pel_st
 
 bool pel_stride_fill_part(struct pel_world *world, struct part *part, const struct pel_scene *scene,
                           const struct pel_instance *instance, const struct pel_memo_table *memo) {
+    world->adaptive = pel_stride_is_on(scene);
+    world->bytes.stride_depth = (float)scene->render.adaptive_step;
     part->stride_max = 1;
-    if (!pel_stride_is_on(scene) || part->model != MODEL_ABSORPTION || part->hole_count > 0 ||
+    if (!world->adaptive || part->model != MODEL_ABSORPTION || part->hole_count > 0 ||
         pel_mask_of(instance) >= 0)
         return true;
     const struct pel_table *table = &memo->table;

@@ -291,16 +291,13 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->whole_width = settings->width;
     bytes->whole_height = settings->height;
     bytes->tiles_x = (bytes->width + TILE_PX - 1) / TILE_PX;
-    // The numbers of shared/pattern.h are in the order of the enums.
     const struct pel_supersampling *supersampling = &settings->supersampling;
     bytes->rays_n = supersampling->n > 1 ? supersampling->n : 1;
     bytes->pattern = (i32)supersampling->pattern;
     bytes->reconstruction = (i32)supersampling->filter;
     bytes->seed = supersampling->seed;
     bytes->contrast = (float)supersampling->adaptive;
-    bytes->stride_depth = (float)settings->adaptive_step;
-    bytes->debug =
-        (i32)settings->debug; // the numbers of shared/variant.h are in the order of the enum
+    bytes->debug = (i32)settings->debug; // numbers are in the order of enums
 }
 
 static bool fill_filter(struct part *part, const struct pel_instance *instance) {
@@ -346,12 +343,11 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         world->styled |= pattern.styled || pattern.gradient != GRADIENT_CENTRAL;
         pattern.rank = (float)pel_mixing_rank(scene, instance);
         pel_clip_fill_part(world, &pattern, scene, instance, centre);
-        if (!pel_stride_fill_part(world, &pattern, scene, instance, &memo->tables[k]))
-            return false;
         // Only media are mixed.
         pattern.medium =
             pattern.model == MODEL_ABSORPTION ? world->bytes.medium_count++ : MEDIUM_NONE;
-        if (!fill_parts(world, scene, layout, instance, &pattern, centre))
+        if (!pel_stride_fill_part(world, &pattern, scene, instance, &memo->tables[k]) ||
+            !fill_parts(world, scene, layout, instance, &pattern, centre))
             return false;
     }
     return true;
@@ -412,7 +408,6 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     world->supersampling =
         !scene->render.debug && pel_world_is_supersampled(&scene->render.supersampling);
     world->jitter = scene->render.jitter;
-    world->adaptive = pel_stride_is_on(scene);
     world->models = pel_model_kernel(scene);
     // A volume on its own, or one blended at a time, is looked up as opacity; slabs of one count as
     // several.
