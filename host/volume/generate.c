@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "volume/volume.h"
 
 enum { SIZE_DEFAULT = 64 };
@@ -131,7 +132,11 @@ static const struct kind *find_kind(const char *name, bool second) {
     for (int i = 0; i < KIND_COUNT; i++)
         if (strcmp(name, kinds[i].name) == 0)
             return &kinds[i];
-    pel_fail(PEL_ERROR_ARGUMENT, "no generator '%s'", name);
+    const char *nearest = pel_text_nearest(name, pel_generator_names());
+    if (nearest)
+        pel_fail(PEL_ERROR_ARGUMENT, "no generator '%s'; did you mean '%s'", name, nearest);
+    else
+        pel_fail(PEL_ERROR_ARGUMENT, "no generator '%s'", name);
     return NULL;
 }
 

@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "world/scene_override.h"
 
-enum { KEY_BYTES = 256, PLACE_BYTES = 1024, VALUE_BYTES = 48 };
+enum { KEY_BYTES = 256, PLACE_BYTES = 1024, VALUE_BYTES = 48, NAMES_BYTES = 256 };
 
 const struct pel_range pel_any_number = {.low = -PEL_COORDINATE_MAX, .high = PEL_COORDINATE_MAX};
 const struct pel_range pel_positive_number = {.high = PEL_COORDINATE_MAX, .low_open = true};
@@ -208,6 +208,14 @@ bool pel_node_check_list(const struct pel_scene_node *node, size_t least, size_t
     return pel_node_fail(node, "must have %zu to %zu elements, not %zu", least, most, count);
 }
 
+// The first name that a text is a part of.
+static const char *find_part(const char *text, const char *const *names) {
+    for (int i = 0; *text && names[i]; i++)
+        if (strstr(names[i], text))
+            return names[i];
+    return NULL;
+}
+
 bool pel_node_check_name(const struct pel_scene_node *node, const char *const *names, int *which) {
     if (!json_is_string(node->value))
         return fail_kind(node, "a text");
@@ -218,13 +226,23 @@ bool pel_node_check_name(const struct pel_scene_node *node, const char *const *n
             return true;
         }
     }
-    char list[PLACE_BYTES / 2] = "";
-    for (int i = 0; names[i]; i++) {
-        size_t used = strlen(list);
+    char list[NAMES_BYTES] = "";
+    size_t used = 0;
+    for (int i = 0; names[i] && used < sizeof list; i++) {
         const char *between = i == 0 ? "" : names[i + 1] ? ", " : " or ";
-        snprintf(list + used, sizeof list - used, "%s%s", between, names[i]);
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", between, names[i]);
     }
-    return pel_node_fail(node, "must be %s, not \"%.*s\"", list, VALUE_BYTES, text);
+    if (used < sizeof list)
+        return pel_node_fail(node, "must be %s, not \"%.*s\"", list, VALUE_BYTES, text);
+    // Too many to be read in one sentence.
+    const char *nearest = pel_text_nearest(text, names);
+    if (!nearest)
+        nearest = find_part(text, names);
+    if (nearest)
+        return pel_node_fail(node, "there is no \"%.*s\"; did you mean \"%s\"", VALUE_BYTES, text,
+                             nearest);
+    return pel_node_fail(node, "must be a name such as \"%s\", not \"%.*s\"", names[1], VALUE_BYTES,
+                         text);
 }
 
 bool pel_node_check_numbers(const struct pel_scene_node *node, size_t count,

@@ -344,7 +344,7 @@ static void test_refusals(void **state) {
         struct pel_generate_options options;
         const char *message;
     } cases[] = {
-        {"spere", {0}, "no generator 'spere'"},
+        {"spere", {0}, "no generator 'spere'; did you mean 'sphere'"},
         {"sphere", {.size = -1}, "size -1 is outside 1..65536"},
         {"sphere", {.spacing_mm = -2}, "spacing -2 mm is not a positive number"},
         {"sphere", {.spacing_mm = NAN}, "spacing nan mm is not a positive number"},
