@@ -484,6 +484,8 @@ int render_options_parse(struct render_options *options, int argc, char **argv) 
     error_t status = argp_parse(&argp, argc, argv, 0, NULL, options);
     if (!status && options->frames && options->frame >= 0)
         return cli_fail(PEL_ERROR_ARGUMENT, "--frame and --frames cannot be combined");
+    if (!status && options->frames && options->probe)
+        return cli_fail(PEL_ERROR_ARGUMENT, "--pixel is of one frame: take --frame");
     return status;
 }
 

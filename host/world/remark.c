@@ -5,6 +5,8 @@
 // or nothing, and is told why.
 #include "world/remark.h"
 
+#include <math.h>
+
 #include "base/error.h"
 #include "world/model.h"
 
@@ -133,6 +135,34 @@ static void remark_models(const struct pel_scene *scene, const struct census *ce
         pel_warn("an emission scale is of model emission, and no volume has that");
 }
 
+// True when nothing within the bounds is kept. Turned boxes are not looked at.
+static bool leaves_nothing(const struct pel_clip *clip, const struct pel_bounds *bounds) {
+    double least = 0, greatest = 0;
+    bool apart = false;
+    for (int axis = 0; axis < 3; axis++) {
+        double low = bounds->low[axis] - clip->point[axis],
+               high = bounds->high[axis] - clip->point[axis];
+        apart |= low > clip->size[axis] / 2 || high < -clip->size[axis] / 2;
+        least += fmin(clip->normal[axis] * low, clip->normal[axis] * high);
+        greatest += fmax(clip->normal[axis] * low, clip->normal[axis] * high);
+    }
+    if (clip->kind == PEL_CLIP_PLANE)
+        return clip->outside ? least >= 0 : greatest < 0;
+    bool turned = clip->xyzw[0] != 0 || clip->xyzw[1] != 0 || clip->xyzw[2] != 0;
+    return !clip->outside && !turned && apart;
+}
+
+static void remark_clips(const struct pel_scene *scene) {
+    struct pel_bounds bounds;
+    if (!pel_scene_bounds(scene, &bounds))
+        return;
+    for (int c = 0; c < scene->clip_count; c++)
+        if (leaves_nothing(&scene->clips[c], &bounds)) {
+            pel_warn("the scene's clips leave nothing of any volume");
+            return;
+        }
+}
+
 static void remark_picture(const struct pel_scene *scene) {
     const struct pel_supersampling *rays = &scene->render.supersampling;
     const struct pel_stereo *stereo = &scene->stereo;
@@ -154,5 +184,6 @@ void pel_scene_remark(const struct pel_scene *scene) {
             remark_volume(scene, &scene->instances[k]);
     remark_light(scene, &census);
     remark_models(scene, &census);
+    remark_clips(scene);
     remark_picture(scene);
 }

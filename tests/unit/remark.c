@@ -66,6 +66,19 @@ static void test_slips(void **state) {
         {{"stereo.separation=20"},
          "stereo has settings but no kind, so the picture is for one eye"},
         {{"stereo.separation=20", "stereo.kind=side-by-side"}, NULL},
+        {{"clip=[{\"plane\": {\"point\": [-1000, 0, 0], \"normal\": [-1, 0, 0]}}]"},
+         "the scene's clips leave nothing of any volume"},
+        {{"clip=[{\"plane\": {\"point\": [-1000, 0, 0], \"normal\": [1, 0, 0]}}]"}, NULL},
+        {{"clip=[{\"plane\": {\"point\": [0, 0, 0], \"normal\": [1, 1, 0]}}]"}, NULL},
+        {{"clip=[{\"plane\": {\"point\": [0, -1000, 0], \"normal\": [0, 1, 0]}, \"keep\": "
+          "\"outside\"}]"},
+         "the scene's clips leave nothing of any volume"},
+        {{"clip=[{\"box\": {\"centre\": [0, 0, 500], \"size\": [10, 10, 10]}}]"},
+         "the scene's clips leave nothing of any volume"},
+        {{"clip=[{\"box\": {\"centre\": [0, 0, 500], \"size\": [10, 10, 10]}, \"keep\": "
+          "\"outside\"}]"},
+         NULL},
+        {{"clip=[{\"box\": {\"size\": [10, 10, 10]}}]"}, NULL},
         // Other frames may use it.
         {{"render.shadows=true", "animation.frames=3"}, NULL},
     };
