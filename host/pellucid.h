@@ -118,11 +118,17 @@ struct pel_volume {
 };
 
 // How to read a file. Zero-initialise for the defaults.
+// Whether values are labels. By itself, as the file says; a file without a way to say so, such as
+// a TIFF, is a label map when its name (a word such as "labels" or "seg") and its values
+// (pel_volume_seems_labels) agree. Colours never are.
+enum pel_label_choice { PEL_LABELS_AUTO, PEL_LABELS_YES, PEL_LABELS_NO };
+
 struct pel_load_options {
     // Which part of a file with more than three dimensions to take, counted from 0.
     int time, channel;
     // Multi-channel TIFF pages are taken as RGB(A) unless this is set: then `channel` picks one.
     bool split_channels;
+    enum pel_label_choice labels;
     // For headerless files (.raw, .bin, .img without header); `raw.dims[0] > 0` says they are given
     // and overrules any sidecar.
     struct {
@@ -143,6 +149,9 @@ struct pel_load_options {
 // Returns NULL on failure (FILE, FORMAT, MEMORY, UNSUPPORTED).
 PEL_API struct pel_volume *pel_volume_load(const char *path,
                                            const struct pel_load_options *options);
+
+// True for a label map, and for whole numbers that are mostly the same as their neighbours.
+PEL_API bool pel_volume_seems_labels(const struct pel_volume *volume);
 
 // Makes a volume of undefined voxels: 1 mm spacing, voxel (0,0,0) at the world's origin, slope 1.
 PEL_API struct pel_volume *pel_volume_create(const char *name, const int dims[3],
@@ -920,6 +929,7 @@ struct pel_device_info {
     uint64_t memory_bytes, max_allocation_bytes, max_constant_bytes, local_bytes;
     bool images;            // 3-D images exist
     size_t max_image[3];    // voxels
+    bool gl_sharing;        // it can write buffers of OpenGL (cl_khr_gl_sharing)
     int native_float_width; // lanes of the device's vectors
     size_t max_work_group;
     // What Pellucid would choose for it.
@@ -934,6 +944,18 @@ PEL_API int pel_device_list(struct pel_device_info *devices);
 
 // ---- Rendering ---------------------------------------------------------------------------------
 
+// An OpenGL context whose buffers a renderer is to write, so that pictures come to a window without
+// the host's memory. The handles are OpenCL's CL_GL_CONTEXT_KHR and CL_GLX_DISPLAY_KHR or
+// CL_EGL_DISPLAY_KHR; the library itself calls no OpenGL. The context must live longer than the
+// renderer and be current in the thread that uses the renderer, creating and destroying included,
+// whenever pel_render_options.gl_buffer is used; drivers differ in when they need that.
+enum pel_gl_platform { PEL_GL_NONE, PEL_GL_GLX, PEL_GL_EGL };
+struct pel_gl {
+    enum pel_gl_platform platform;
+    void *context; // GLXContext or EGLContext
+    void *display; // Display * or EGLDisplay
+};
+
 // `device` is an index into pel_device_list ("0"), a type ("gpu", "cpu") or part of a name; NULL
 // takes $PELLUCID_DEVICE, else the first usable GPU, else the first usable device.
 struct pel_renderer_options {
@@ -944,11 +966,13 @@ struct pel_renderer_options {
     int work_group_rows;           // packets of rays above each other in one; 0 = 1
     uint64_t max_allocation_bytes; // lowers the device's own limit (for tests); 0 = the device's
     int compute_units;             // of a device that can be divided; 0 = all
+    struct pel_gl gl;              // to share buffers with, where the device can; else ignored
 };
 
 struct pel_image {
     int width, height;
-    float *rgba; // owned; premultiplied; rows from the top
+    float *rgba; // owned; premultiplied; rows from the top. NULL: the picture is in a buffer of
+                 // OpenGL, which only pel_render_options.gl_buffer asks for
 };
 
 // The numbers of a debug view over the picture's pixels.
@@ -969,6 +993,8 @@ struct pel_lod_statistics {
     uint64_t bytes;             // of all voxels that are shown; 0 when lod is off
     double ms;                  // for making levels that were not there yet
 };
+
+enum { PEL_GL_REASON_BYTES = 128 };
 
 // What one frame took.
 struct pel_render_statistics {
@@ -1000,6 +1026,8 @@ struct pel_render_statistics {
         uint64_t eye_samples[2];              // of the first eye, and of the second; an interlaced
                                               // picture's are all counted as the first one's
     } stereo;
+    char gl_reason[PEL_GL_REASON_BYTES]; // why the picture is not in gl_buffer; "": it is, or was
+                                         // not asked to be
 };
 
 // Called between batches of tiles with the finished share, 0..1. Return false to abandon the frame:
@@ -1011,6 +1039,12 @@ struct pel_render_options {
     void *user;
     double batch_ms; // what a batch should take: how soon a frame can be abandoned; 0 = 150
     float *numbers;  // receives a debug view's number of each pixel, rows from the top; may be NULL
+    // The name of a buffer of OpenGL, of 4 bytes a pixel and more, in which the picture is wanted
+    // as 8-bit RGBA, rows from the top, rounded as in a file; 0 = none. OpenGL must be done with
+    // the buffer (glFinish) before the call; OpenCL is when it returns. Where the picture cannot be
+    // left there, because it is put together on the host or the device does not share buffers, the
+    // image has its pixels as always, and the statistics say why.
+    uint32_t gl_buffer;
 };
 
 // Opens a device. Fails (DEVICE, ARGUMENT) with a sentence that lists what was found.
@@ -1026,6 +1060,10 @@ PEL_API struct pel_image *pel_renderer_render(struct pel_renderer *renderer,
                                               const struct pel_scene *scene,
                                               const struct pel_render_options *options,
                                               struct pel_render_statistics *statistics);
+
+// Lets go of a buffer of OpenGL that pictures were left in: before its store is made anew or it is
+// deleted. It may be one that the renderer never saw.
+PEL_API void pel_renderer_forget_gl(struct pel_renderer *renderer, uint32_t gl_buffer);
 
 // A stretch of a ray with a constant set of volumes, at least one.
 struct pel_probe_span {

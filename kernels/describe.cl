@@ -121,6 +121,11 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, weave_x);
     *out++ = OFFSET(struct world, weave_y);
     *out++ = OFFSET(struct world, pictures);
+    *out++ = OFFSET(struct world, row_px);
+    *out++ = OFFSET(struct world, eye_px);
+    *out++ = OFFSET(struct world, merge_linear);
+    *out++ = OFFSET(struct world, merge);
+    *out++ = OFFSET(struct world, merged_background);
     *out++ = OFFSET(struct world, balls);
     *out++ = OFFSET(struct world, shadow_step_mm);
     *out++ = OFFSET(struct world, shadow_length_mm);

@@ -1,17 +1,20 @@
-// gradient_brick.cl - central differences straight from the bricks, for integers and the linear filter.
+// gradient_brick.cl - central differences straight from bricks with a border, for integers and the linear filter.
 //
-// The six samples one voxel away have the weights of the sample between them, and interpolation is
-// linear: so voxels are subtracted first, as integers, and half the interpolation is saved. Where the
-// voxels lie follows from one index along each axis. At the volume's edge an index stays, because the
-// border repeats the edge, whatever the weight. The same numbers as central_differences, which takes
-// what is not handled here.
+// The six samples one voxel away have the weights of the sample between them, and interpolation is linear: so voxels
+// are subtracted first, and half the interpolation is saved. All 32 voxels lie at fixed distances from the first of the
+// sample's own, four of a row, or of two rows of bytes, in each load of eight bytes. Up to rounding the same numbers as
+// central_differences, which takes what is not handled here.
+//
+// Integers become floats without conversion: n below the exponent bits of 2^23 is 2^23 + n, and the difference of two
+// such floats is exact. The second byte of a word need not even move: below the exponent bits of 2^15 it adds n. So
+// voxels that are subtracted from each other are both made from an even byte or both from an odd one.
 #ifndef GRADIENT_BRICK_CL
 #define GRADIENT_BRICK_CL
 
 #include "sample.cl"
 
-// 1: there are parts that brick_differences handles. Bricks in a pool are not where their index says.
-#if READER == READER_BUFFER && !POOL && (VOXELS & (VOXELS_U8 | VOXELS_U16)) != 0 &&                \
+// 1: there are parts that brick_differences handles.
+#if READER == READER_BUFFER && BORDER && (VOXELS & (VOXELS_U8 | VOXELS_U16)) != 0 &&               \
     (FILTERS & FILTERS_LINEAR) != 0
 #define BRICK_GRADIENT 1
 #else
@@ -28,80 +31,165 @@
     (IS_FILTER(part, FILTERS_LINEAR) && HAS_VOXELS(part) &&                                        \
      (IS_CLASS(part, VOXELS_U8) || IS_CLASS(part, VOXELS_U16)))
 
-// What a field of `bits` grows by from one word to the other.
-INLINE real change_of(integer more, integer less, int first, int bits) {
-    return TO_REAL(((more >> first) & bits) - ((less >> first) & bits));
-}
+// The eight bytes of each lane that begin at its element of `row`, as two words. With a packet two lanes are loaded
+// such that each comes to lie in its place, and the words of even and odd lanes then change places by shifts.
+struct twin {
+    integer first, second;
+};
 
-#if VOXELS & VOXELS_U8
-INLINE real face_change_u8(__global const ushort *row, const struct indices *more,
-                           const struct indices *less, const struct cell *cell) {
-    const integer b = load_words(row, more), a = load_words(row, less);
-    return mix_lanes(mix_lanes(change_of(b, a, 0, 255), change_of(b, a, 8, 255), cell->y),
-                     mix_lanes(change_of(b, a, 16, 255), change_of(b, a, 24, 255), cell->y),
-                     cell->x);
-}
-#endif
+struct __attribute__((packed, aligned(2))) loose_longs {
+    ulong2 longs;
+};
 
-#if VOXELS & VOXELS_U16
-INLINE real row_change_u16(__global const ushort *row, const struct indices *more,
-                           const struct indices *less, real x) {
-    const integer b = load_words(row, more), a = load_words(row, less);
-    return mix_lanes(change_of(b, a, 0, 65535), change_of(b, a, 16, 65535), x);
-}
-
-INLINE real face_change_u16(__global const ushort *row, const struct indices *more,
-                            const struct indices *less, const struct cell *cell) {
-    return mix_lanes(row_change_u16(row, more, less, cell->x),
-                     row_change_u16(row + BRICK_ROW, more, less, cell->x), cell->y);
-}
-#endif
-
-// How much more the volume is at the cell `more` than at the cell `less`, at the weights of `cell`.
-INLINE real change_between(__constant struct part *part, __global const ushort *voxels,
-                           integer more, integer less, const struct cell *cell) {
-    const struct indices b = spread_indices(more), a = spread_indices(less);
-    __global const ushort *next = voxels + BRICK_SLICE;
-#if VOXELS & VOXELS_U8
-    if (IS_CLASS(part, VOXELS_U8))
-        return mix_lanes(face_change_u8(voxels, &b, &a, cell), face_change_u8(next, &b, &a, cell),
-                         cell->z);
-#endif
-#if VOXELS & VOXELS_U16
-    return mix_lanes(face_change_u16(voxels, &b, &a, cell), face_change_u16(next, &b, &a, cell),
-                     cell->z);
+INLINE struct twin load_twins(__global const ushort *row, const struct indices *at) {
+    struct twin twin;
+#if LANES == 1
+    twin.first = load_words(row, at);
+    twin.second = load_words(row + 2, at);
 #else
-    return (real)(0.0f);
+#define LONGS(lane, place)                                                                         \
+    ((__global const struct loose_longs *)(row - 4 * (place) + at->of[lane]))->longs
+#define TWO_LANES(a, b) ((ulong2)(LONGS(a, 0).x, LONGS(b, 1).y))
+#if LANES == 4
+    const ulong2 even = TWO_LANES(0, 2), odd = TWO_LANES(1, 3);
+#elif LANES == 8
+    const ulong4 even = (ulong4)(TWO_LANES(0, 2), TWO_LANES(4, 6)),
+                 odd = (ulong4)(TWO_LANES(1, 3), TWO_LANES(5, 7));
+#else
+    const ulong8 even = (ulong8)(TWO_LANES(0, 2), TWO_LANES(4, 6), TWO_LANES(8, 10),
+                                 TWO_LANES(12, 14)),
+                 odd = (ulong8)(TWO_LANES(1, 3), TWO_LANES(5, 7), TWO_LANES(9, 11),
+                                TWO_LANES(13, 15));
 #endif
+    twin.first = AS_INTEGER((even & 0xffffffffUL) | (odd << 32));
+    twin.second = AS_INTEGER((even >> 32) | (odd & 0xffffffff00000000UL));
+#endif
+    return twin;
 }
 
-// Where a voxel's index along one axis brings it, if bricks along it lie `brick` elements apart.
-INLINE integer axis_offset(integer index, int brick, int voxel) {
-    return (index >> BRICK_BITS) * brick + (index & (integer)(BRICK_SIDE - 1)) * voxel;
+// Voxels (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of a slice, as floats with something above them; and where
+// the slice is one of the cell's two, how its values change along x and y.
+struct slice {
+    real near, right, down, far;
+    real along_x, along_y;
+};
+
+INLINE real mix_face(real near, real right, real down, real far, const struct cell *cell) {
+    return mix_lanes(mix_lanes(near, right, cell->x), mix_lanes(down, far, cell->x), cell->y);
 }
 
-// What the volume grows by over two voxels along one axis; the other two add up to `others`.
-INLINE real change_along(__constant struct part *part, __global const ushort *voxels, integer index,
-                         float high, int brick, int voxel, integer others,
-                         const struct cell *cell) {
-    const integer behind = min(index + 1, (integer)((int)high)), before = max(index - 1, (integer)(0));
-    return change_between(part, voxels, others + axis_offset(behind, brick, voxel),
-                          others + axis_offset(before, brick, voxel), cell);
+#if VOXELS & VOXELS_U8
+INLINE real even_byte(integer word) {
+    return AS_REAL((word & 0xff) | 0x4b000000);
+}
+
+INLINE real odd_byte(integer word) {
+    return AS_REAL((word & 0xff00) | 0x47000000);
+}
+
+// A slice beside the cell.
+INLINE struct slice outer_slice_u8(__global const ushort *voxels, const struct indices *at) {
+    const integer word = load_words(voxels, at);
+    struct slice s;
+    s.near = odd_byte(word << 8);
+    s.right = odd_byte(word >> 8);
+    s.down = even_byte(word >> 8);
+    s.far = even_byte(word >> 24);
+    return s;
+}
+
+// One of the cell's own. Two loads hold rows y - 1 and y, and y + 1 and y + 2, each of x - 1 ... x + 2.
+INLINE struct slice inner_slice_u8(__global const ushort *voxels, const struct indices *at,
+                                   const struct cell *cell) {
+    const struct twin up = load_twins(voxels - BRICK_ROW - 1, at),
+                      low = load_twins(voxels + BRICK_ROW - 1, at);
+    const integer up_high = up.first >> 16, low_high = low.first >> 16;
+    struct slice s;
+    s.near = odd_byte(up_high);
+    s.right = odd_byte(up.second);
+    s.down = even_byte(low_high);
+    s.far = even_byte(low.second);
+    s.along_x = mix_face(s.right - odd_byte(up.first), odd_byte(up.second >> 16) - s.near,
+                         s.far - even_byte(low.first), even_byte(low.second >> 16) - s.down, cell);
+    s.along_y = mix_face(s.down - even_byte(up_high), s.far - even_byte(up.second), odd_byte(low_high) - s.near,
+                         odd_byte(low.second) - s.right, cell);
+    return s;
+}
+#endif
+
+#if VOXELS & VOXELS_U16
+INLINE real low_half(integer word) {
+    return AS_REAL((word & 0xffff) | 0x4b000000);
+}
+
+INLINE real high_half(integer word) {
+    return low_half(word >> 16);
+}
+
+INLINE struct slice outer_slice_u16(__global const ushort *voxels, const struct indices *at) {
+    const integer row = load_words(voxels, at), next = load_words(voxels + BRICK_ROW, at);
+    struct slice s;
+    s.near = low_half(row);
+    s.right = high_half(row);
+    s.down = low_half(next);
+    s.far = high_half(next);
+    return s;
+}
+
+INLINE struct slice inner_slice_u16(__global const ushort *voxels, const struct indices *at,
+                                    const struct cell *cell) {
+    const struct twin row = load_twins(voxels - 1, at),
+                      next = load_twins(voxels + BRICK_ROW - 1, at);
+    const integer before = load_words(voxels - BRICK_ROW, at),
+                  behind = load_words(voxels + 2 * BRICK_ROW, at);
+    struct slice s;
+    s.near = high_half(row.first);
+    s.right = low_half(row.second);
+    s.down = high_half(next.first);
+    s.far = low_half(next.second);
+    s.along_x = mix_face(s.right - low_half(row.first), high_half(row.second) - s.near,
+                         s.far - low_half(next.first), high_half(next.second) - s.down, cell);
+    s.along_y = mix_face(s.down - low_half(before), s.far - high_half(before),
+                         low_half(behind) - s.near, high_half(behind) - s.right, cell);
+    return s;
+}
+#endif
+
+// What values grow by over two slices.
+INLINE real change_across(const struct slice *more, const struct slice *less,
+                          const struct cell *cell) {
+    return mix_face(more->near - less->near, more->right - less->right, more->down - less->down,
+                    more->far - less->far, cell);
 }
 
 INLINE void brick_differences(MEMORY_PARAMETERS, __constant struct part *part, real x, real y,
                               real z, real difference[3]) {
     const integer ix = TO_INTEGER(x), iy = TO_INTEGER(y), iz = TO_INTEGER(z);
     const struct cell cell = {.x = x - TO_REAL(ix), .y = y - TO_REAL(iy), .z = z - TO_REAL(iz)};
-    const int row = part->brick_row * BRICK_VOXELS, slice = part->brick_slice * BRICK_VOXELS;
-    const integer at_x = axis_offset(ix, BRICK_VOXELS, 1), at_y = axis_offset(iy, row, BRICK_ROW),
-                  at_z = axis_offset(iz, slice, BRICK_SLICE);
+    const struct indices at = spread_indices(voxel_index(part, ix, iy, iz PAGES_ARGUMENT));
     __global const ushort *voxels =
-        (__global const ushort *)part_buffer(MEMORY_ARGUMENTS, part) + part->offset + BRICK_LEAD;
-    const float4 high = part->memory_high;
-    difference[0] = change_along(part, voxels, ix, high.x, BRICK_VOXELS, 1, at_y + at_z, &cell);
-    difference[1] = change_along(part, voxels, iy, high.y, row, BRICK_ROW, at_x + at_z, &cell);
-    difference[2] = change_along(part, voxels, iz, high.z, slice, BRICK_SLICE, at_x + at_y, &cell);
+        (__global const ushort *)part_buffer(MEMORY_ARGUMENTS, part) + part->offset;
+    struct slice before, first, second, behind;
+#if VOXELS & VOXELS_U8
+    if (IS_CLASS(part, VOXELS_U8)) {
+        first = inner_slice_u8(voxels, &at, &cell);
+        second = inner_slice_u8(voxels + BRICK_SLICE, &at, &cell);
+        before = outer_slice_u8(voxels - BRICK_SLICE, &at);
+        behind = outer_slice_u8(voxels + 2 * BRICK_SLICE, &at);
+    }
+#endif
+#if VOXELS & VOXELS_U16
+    if (IS_CLASS(part, VOXELS_U16)) {
+        first = inner_slice_u16(voxels, &at, &cell);
+        second = inner_slice_u16(voxels + BRICK_SLICE, &at, &cell);
+        before = outer_slice_u16(voxels - BRICK_SLICE, &at);
+        behind = outer_slice_u16(voxels + 2 * BRICK_SLICE, &at);
+    }
+#endif
+    difference[0] = mix_lanes(first.along_x, second.along_x, cell.z);
+    difference[1] = mix_lanes(first.along_y, second.along_y, cell.z);
+    difference[2] = mix_lanes(change_across(&second, &before, &cell),
+                              change_across(&behind, &first, &cell), cell.z);
 }
 #endif
 

@@ -40,6 +40,7 @@ INLINE struct vector find_normal(MEMORY_PARAMETERS, __constant struct part *part
                                  real y, real z, real *slope) {
     real difference[3];
     find_differences(MEMORY_ARGUMENTS, part, raw, x, y, z, difference);
+#pragma unroll
     for (int axis = 0; axis < 3; axis++) {
         difference[axis] *= part->normal_scale;
 #if VOXELS & VOXELS_F32

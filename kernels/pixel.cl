@@ -17,11 +17,14 @@
 #define RAY_ARGUMENTS
 #endif
 
-// The index of the first pixel of an eye's picture.
-#if EYES == EYES_BOTH || EYES == EYES_DEPTH
-#define FIRST_PIXEL(world, eye) ((eye) * (world)->width * (world)->height)
+// The index of the first pixel of an eye's picture, and pixels from one of its rows to the next. With supersampling
+// pictures lie above each other.
+#if EYES == EYES_BOTH
+#define FIRST_PIXEL(world, eye) ((eye) * (world)->eye_px)
+#define ROW_PX(world) (world)->row_px
 #else
-#define FIRST_PIXEL(world, eye) 0
+#define FIRST_PIXEL(world, eye) (EYES == EYES_DEPTH ? (eye) * (world)->width * (world)->height : 0)
+#define ROW_PX(world) (world)->width
 #endif
 
 // Premultiplied colour and opacity of each lane, accumulated front to back.
@@ -37,7 +40,7 @@ INLINE struct ray eye_rays(__constant struct world *world, int eye, int left, in
     const integer sum = (world->left + left + LANE_X) * world->weave_x +
                         (world->top + top + LANE_Y) * world->weave_y;
     return choose_rays(&first, &second, MASK((sum & 1) != 0));
-#elif EYES == EYES_BOTH
+#elif EYES == EYES_BOTH || EYES == EYES_MERGED
     return camera_ray(world, eye ? &world->second : &world->camera, x, y);
 #else
     return camera_ray(world, &world->camera, x, y);
@@ -58,7 +61,7 @@ INLINE struct ray pixel_rays(__constant struct world *world, int eye, int left, 
         xs[lane] = ys[lane] = 0.5f;
 #if SUPERSAMPLING
         const bool inside = x_px < world->width && y_px < world->height;
-        const int pixel = inside ? FIRST_PIXEL(world, eye) + y_px * world->width + x_px : 0;
+        const int pixel = inside ? FIRST_PIXEL(world, eye) + y_px * ROW_PX(world) + x_px : 0;
         runs[lane] = inside && (all || refined[pixel]) ? 1.0f : 0.0f;
         if (runs[lane] == 0.0f)
             continue;
@@ -104,13 +107,39 @@ INLINE uint earlier_samples(__constant struct world *world, uint counted RAY_PAR
 #endif
 }
 
+#if LANES >= 8 && !SUPERSAMPLING
+// Stores one row of a packet, four pixels.
+INLINE void store_row(__global float4 *picture, float4 r, float4 g, float4 b, float4 a) {
+    const float8 left = (float8)(r.x, g.x, b.x, a.x, r.y, g.y, b.y, a.y);
+    const float8 right = (float8)(r.z, g.z, b.z, a.z, r.w, g.w, b.w, a.w);
+    vstore16((float16)(left, right), 0, (__global float *)picture);
+}
+#endif
+
 // Stores in an eye's picture the light of the lanes that run and lie in the picture.
 INLINE void store_pixels(__constant struct world *world, __global float4 *picture, int eye, int left,
                          int top, const struct ray *ray, const struct light *light) {
     picture += FIRST_PIXEL(world, eye);
 #if LANES == 1
-    picture[top * world->width + left] = (float4)(light->r, light->g, light->b, light->a);
+    picture[top * ROW_PX(world) + left] = (float4)(light->r, light->g, light->b, light->a);
 #else
+#if LANES >= 8 && !SUPERSAMPLING
+    // Most packets lie in the picture as a whole.
+    if (left + PACKET_W <= world->width && top + PACKET_H <= world->height) {
+        __global float4 *row = &picture[top * ROW_PX(world) + left];
+        const int pitch = ROW_PX(world);
+#if LANES == 8
+        store_row(row, light->r.lo, light->g.lo, light->b.lo, light->a.lo);
+        store_row(row + pitch, light->r.hi, light->g.hi, light->b.hi, light->a.hi);
+#else
+        store_row(row, light->r.lo.lo, light->g.lo.lo, light->b.lo.lo, light->a.lo.lo);
+        store_row(row + pitch, light->r.lo.hi, light->g.lo.hi, light->b.lo.hi, light->a.lo.hi);
+        store_row(row + 2 * pitch, light->r.hi.lo, light->g.hi.lo, light->b.hi.lo, light->a.hi.lo);
+        store_row(row + 3 * pitch, light->r.hi.hi, light->g.hi.hi, light->b.hi.hi, light->a.hi.hi);
+#endif
+        return;
+    }
+#endif
     float r[LANES], g[LANES], b[LANES], a[LANES];
     STORE_LANES(light->r, r);
     STORE_LANES(light->g, g);
@@ -127,7 +156,7 @@ INLINE void store_pixels(__constant struct world *world, __global float4 *pictur
             continue;
 #endif
         if (x < world->width && y < world->height)
-            picture[y * world->width + x] = (float4)(r[lane], g[lane], b[lane], a[lane]);
+            picture[y * ROW_PX(world) + x] = (float4)(r[lane], g[lane], b[lane], a[lane]);
     }
 #endif
 }

@@ -57,4 +57,25 @@ INLINE real power(real base, real exponent) {
     return fast_exp2(exponent * fast_log2(base));
 }
 
+#define WHOLE_POWER_MAX 120
+
+// The same for an exponent of all lanes, and bases down to nothing. Whole numbers take a few products, of which none
+// comes near the least of floats, where processors are slow: a base is at least what makes 2^-120 of the power.
+INLINE real power_of_all(real base, float exponent) {
+#if LANES > 1
+    int left = (int)exponent;
+    if ((float)left == exponent && left >= 1 && left <= WHOLE_POWER_MAX) {
+        base = AT_LEAST(base, (real)(as_float((127 - WHOLE_POWER_MAX / left) << 23)));
+        real product = left & 1 ? base : (real)(1.0f);
+        for (left >>= 1; left > 0; left >>= 1) {
+            base *= base;
+            if (left & 1)
+                product *= base;
+        }
+        return product;
+    }
+#endif
+    return power(AT_LEAST(base, (real)(1e-30f)), (real)(exponent));
+}
+
 #endif

@@ -189,8 +189,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
     return light;
 }
 
+#include "packet.cl"
+#include "glasses.cl"
+
 // Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX pixels. Writes
-// premultiplied RGBA, rows from the top, and each packet's numbers of samples (SAMPLE_COUNTS).
+// premultiplied RGBA, rows from the top, and each packet's numbers of samples (SAMPLE_COUNTS). A work-item of two eyes
+// leaves the second one's numbers behind those of all packets of its tile.
 __kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
                      __global float4 *picture, __global uint *sample_counts, const uint first_tile,
                      __global const uchar *cells RAY_PARAMETERS, MEMORY_PARAMETERS) {
@@ -206,39 +210,33 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;
     const int left = (int)(tile % world->tiles_x * TILE_PX + column * PACKET_W);
     const int top = (int)(tile / world->tiles_x * TILE_PX + row * PACKET_H);
-    __global uint *counts = &sample_counts[(turn * packets_per_tile + packet) * SAMPLE_COUNTS];
+    const uint eyes = EYES == EYES_MERGED ? 2 : 1;
+    __global uint *counts = &sample_counts[(turn * eyes * packets_per_tile + packet) * SAMPLE_COUNTS];
+    __global uint *second_counts = counts + (eyes - 1) * packets_per_tile * SAMPLE_COUNTS;
     for (int n = 0; n < SAMPLE_COUNTS; n++)
-        counts[n] = earlier_samples(world, counts[n] RAY_ARGUMENTS);
+        counts[n] = second_counts[n] = earlier_samples(world, counts[n] RAY_ARGUMENTS);
     if (left >= world->width || top >= world->height)
         return;
 
+#if EYES == EYES_MERGED
+    struct ray ray;
+    struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)}, first = light;
+    for (int side = 0; side < 2; side++) {
+        first = light;
+        ray = pixel_rays(world, side, left, top RAY_ARGUMENTS);
+        light = packet_light(world, table, cells, MEMORY_ARGUMENTS, &ray, left, top, picture,
+                             side ? second_counts : counts);
+    }
+    light = merge_eyes(world, &first, &light);
+#else
     const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
         return;
-    struct crossing crossing;
-    find_crossing(world, cells, &ray, &crossing);
-    integer samples = (integer)(0);
-    struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)};
-#if MODELS & MODELS_EMISSION
-    light = follow_exactly(world, table, MEMORY_ARGUMENTS, &ray, &samples);
-    crossing.possible = samples;
-#else
-    if (crossing.count > 0)
-        light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
+    struct light light =
+        packet_light(world, table, cells, MEMORY_ARGUMENTS, &ray, left, top, picture, counts);
+#if !DEBUG
+    add_background(&light, world);
 #endif
-
-    STORE_DEPTH(world, picture, left, top, &ray, &crossing, &light);
-    const float4 behind = world->background;
-    const real clear = 1.0f - light.a;
-    light.r += clear * behind.x;
-    light.g += clear * behind.y;
-    light.b += clear * behind.z;
-    light.a += clear * behind.w;
-    counts[SAMPLES_TAKEN] += (uint)sum_lanes(samples);
-    counts[SAMPLES_POSSIBLE] += (uint)sum_lanes(crossing.possible);
-    counts[SAMPLES_BEHIND] += (uint)sum_lanes(crossing.behind);
-#if DEBUG
-    light.r = debug_number(world, cells, &crossing, samples);
 #endif
     store_pixels(world, picture, eye, left, top, &ray, &light);
 }

@@ -18,6 +18,9 @@
 #ifndef POOL
 #define POOL 0 // 1: bricks come from a pool, behind a table of pages, and only those that may be seen
 #endif
+#ifndef BORDER
+#define BORDER 0 // 1: bricks have a border, so that gradients come from one brick
+#endif
 #ifndef VOXELS
 #define VOXELS VOXELS_U8 // which classes of voxels occur
 #endif

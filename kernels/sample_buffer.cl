@@ -12,6 +12,11 @@
 #define PAGES_PARAMETER
 #define PAGES_ARGUMENT
 #endif
+
+// Of the bricks of all parts (shared/brick.h).
+#define BRICK_ROW BRICK_ROW_OF(BORDER)
+#define BRICK_SLICE BRICK_SLICE_OF(BORDER)
+
 #define MEMORY_PARAMETERS                                                                          \
     __global const uchar *buffer0, __global const uchar *buffer1, __global const uchar *buffer2,   \
         __global const uchar *buffer3 PAGES_PARAMETER LIVE_PARAMETERS
@@ -44,8 +49,8 @@ INLINE integer voxel_index(__constant struct part *part, integer x, integer y,
     brick += (int)part->ranges;
     brick = GATHER(int, LOAD_PAGE, brick);
 #endif
-    return brick * BRICK_VOXELS + (z & inside) * BRICK_SLICE + (y & inside) * BRICK_ROW +
-           (x & inside) + BRICK_LEAD;
+    return brick * BRICK_VOXELS_OF(BORDER) + (z & inside) * BRICK_SLICE +
+           (y & inside) * BRICK_ROW + (x & inside) + BRICK_FIRST_OF(BORDER);
 }
 
 #define LOAD(at) row[at]

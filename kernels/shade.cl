@@ -61,8 +61,7 @@ INLINE void light_up(FRAME_PARAMETERS, __constant struct part *part, MEMORY_PARA
         const real facing = dot_lanes(normal, &l);
         const real lit = part->one_sided ? AT_LEAST(facing, zero) : fabs(facing);
         const real cosine = highlight_cosine(part, lamp, normal, &l, &v);
-        // The cosine's floor makes a power of nothing as good as nothing.
-        real shine = power(AT_LEAST(cosine, (real)(1e-30f)), (real)(material.w));
+        real shine = power_of_all(cosine, material.w);
         if (part->one_sided)
             shine = CHOOSE(zero, shine, MASK(facing > 0.0f));
         real diffuse = material.y * lit, specular = material.z * shine;

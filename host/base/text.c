@@ -7,9 +7,12 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 // Longer words are not slips of anything we know.
 enum { WORD_MAX = 48 };
+// Shorter words are the beginning of too many.
+enum { BEGINNING_MIN = 3 };
 
 static int least(int a, int b) {
     return a < b ? a : b;
@@ -131,7 +134,7 @@ const char *pel_text_nearest(const char *word, const char *const *known) {
     if (length > WORD_MAX)
         return NULL;
     int allowed = length <= 5 ? 1 : length <= 8 ? 2 : 3;
-    const char *nearest = NULL;
+    const char *nearest = NULL, *const *first = known;
     for (; *known; known++) {
         if (strlen(*known) > WORD_MAX)
             continue;
@@ -141,6 +144,9 @@ const char *pel_text_nearest(const char *word, const char *const *known) {
             allowed = slips - 1;
         }
     }
+    for (; !nearest && length >= BEGINNING_MIN && *first; first++)
+        if (strncasecmp(word, *first, length) == 0)
+            nearest = *first;
     return nearest;
 }
 

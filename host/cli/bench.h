@@ -65,7 +65,7 @@ enum bench_detail {
 struct bench_case {
     enum bench_kind kind;
     char suite[16], name[BENCH_NAME_BYTES];
-    char transfer[8];        // of the task: "T1"; else ""
+    char transfer[16];       // of the task: "T1"; else ""
     int volumes;             //
     int baseline;            // the case it is compared with; -1: none
     bool optional;           // a device that cannot do it leaves it out

@@ -45,7 +45,7 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_TYPE:
         if (!pel_voxel_type_from_name(argument, &arguments->type))
-            return cli_fail_library();
+            return cli_fail(PEL_ERROR_ARGUMENT, "--type: %s", pel_error_message());
         arguments->retype = true;
         break;
     case ARGP_KEY_INIT:
@@ -145,7 +145,10 @@ static int resample(struct pel_volume **volume, const char *text) {
     int dims[3];
     if (!read_resample(text, *volume, dims))
         return PEL_ERROR_ARGUMENT;
-    return take(volume, pel_volume_resample(*volume, dims));
+    struct pel_volume *resampled = pel_volume_resample(*volume, dims);
+    if (!resampled)
+        return cli_fail(pel_error_code(), "--resample: %s", pel_error_message());
+    return take(volume, resampled);
 }
 
 static int apply(struct pel_volume **volume, const struct arguments *arguments) {

@@ -52,6 +52,7 @@ static json_t *device_json(const struct pel_device_info *device, int index, bool
     for (int axis = 0; axis < 3; axis++)
         json_array_append_new(max_image, json_integer((json_int_t)device->max_image[axis]));
     json_object_set_new(object, "max_image", max_image);
+    json_object_set_new(object, "gl_sharing", json_boolean(device->gl_sharing));
     json_object_set_new(object, "native_float_width", json_integer(device->native_float_width));
     json_object_set_new(object, "max_work_group", json_integer((json_int_t)device->max_work_group));
     json_object_set_new(object, "reader", json_string(report_reader(device->reader)));
@@ -83,6 +84,7 @@ static void print_device(const struct pel_device_info *device, int index, bool c
                device->max_image[1], device->max_image[2]);
     else
         printf("    %-16s none\n", "3-D images");
+    printf("    %-16s %s\n", "OpenGL buffers", device->gl_sharing ? "can be shared" : "not shared");
     printf("    %-16s %d\n", "float lanes", device->native_float_width);
     printf("    %-16s up to %zu\n", "work-group", device->max_work_group);
     if (device->usable)

@@ -18,6 +18,7 @@ enum {
     KEY_FRAMES,
     KEY_LATENCY,
     KEY_KEYS,
+    KEY_VERBOSE,
     KEY_DEVICE,
     KEY_READER,
     KEY_SET,
@@ -26,6 +27,7 @@ enum {
 struct arguments {
     bool keys;
     struct pel_viewer_latency latency;
+    struct pel_viewer_report report;
     char **inputs;
     int input_count;
     struct overrides overrides;
@@ -49,6 +51,7 @@ static const struct argp_option options[] = {
      "a frame is in flight; write JSON to standard output, and end",
      0},
     {"keys", KEY_KEYS, NULL, 0, "List every key and mouse action as Markdown, and end", 0},
+    {"verbose", KEY_VERBOSE, NULL, 0, "Say at the end how pictures came into the window", 0},
     {0, 0, NULL, 0, "The scene and the device:", 3},
     {"set", KEY_SET, "KEY=VALUE", 0,
      "Set any key of the scene, such as volumes.0.density=0.2; may be repeated", 0},
@@ -110,6 +113,9 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     case KEY_SET:
         good = add_set(arguments, argument);
         break;
+    case KEY_VERBOSE:
+        viewer->report = &arguments->report;
+        break;
     case KEY_DEVICE:
         viewer->renderer.device = argument;
         break;
@@ -143,6 +149,13 @@ static int print_latency(const struct pel_viewer_latency *latency) {
     return report_json(object);
 }
 
+static void print_report(const struct pel_viewer_report *report) {
+    const char *reason = report->reason;
+    fprintf(stderr, "pellucid: presented by: %s%s%s; %d of %d pictures by shared buffers\n",
+            reason[0] ? "pixel buffer (" : "shared buffer", reason, reason[0] ? ")" : "",
+            report->shared, report->pictures);
+}
+
 static int view(struct arguments *arguments) {
     if (arguments->keys) {
         pel_keys_write(stdout);
@@ -168,6 +181,8 @@ static int view(struct arguments *arguments) {
     pel_scene_destroy(scene);
     if (code)
         return cli_fail(code, "%s", sentence);
+    if (arguments->viewer.report)
+        print_report(arguments->viewer.report);
     return arguments->viewer.latency ? print_latency(&arguments->latency) : PEL_OK;
 }
 

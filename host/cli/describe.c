@@ -80,6 +80,10 @@ static void print_values(const struct pel_volume *volume, const struct pel_stati
     }
     begin_line(indent, "histogram");
     print_sketch(statistics->histogram);
+    if (!volume->labels && pel_volume_seems_labels(volume)) {
+        begin_line(indent, "perhaps");
+        printf("a label map: --labels, or \"labels\": true in a scene, takes it as one\n");
+    }
 }
 
 void describe_print(const struct pel_volume *volume, const struct pel_statistics *statistics,
@@ -137,6 +141,7 @@ json_t *describe_json(const struct pel_volume *volume, const struct pel_statisti
     json_object_set_new(object, "dims", dims_json(volume->dims));
     json_object_set_new(object, "type", json_string(pel_voxel_type_name(volume->type)));
     json_object_set_new(object, "labels", json_boolean(volume->labels));
+    json_object_set_new(object, "seems_labels", json_boolean(pel_volume_seems_labels(volume)));
     json_object_set_new(object, "bytes", json_integer((json_int_t)pel_volume_bytes(volume)));
     add_frame(object, volume);
     json_object_set_new(object, "unit", report_text(volume->unit));

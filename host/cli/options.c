@@ -175,7 +175,7 @@ static bool read_raw(const char *text, struct pel_load_options *load) {
     return good;
 }
 
-enum { KEY_TIME = CLI_KEY_LOAD, KEY_CHANNEL, KEY_SPLIT, KEY_RAW };
+enum { KEY_TIME = CLI_KEY_LOAD, KEY_CHANNEL, KEY_SPLIT, KEY_RAW, KEY_LABELS };
 
 static error_t parse_load(int key, char *argument, struct argp_state *state) {
     struct pel_load_options *load = state->input;
@@ -189,6 +189,9 @@ static error_t parse_load(int key, char *argument, struct argp_state *state) {
         break;
     case KEY_SPLIT:
         load->split_channels = true;
+        break;
+    case KEY_LABELS:
+        load->labels = PEL_LABELS_YES;
         break;
     case KEY_RAW:
         good = read_raw(argument, load);
@@ -204,6 +207,10 @@ static const struct argp_option load_options[] = {
     {"channel", KEY_CHANNEL, "N", 0, "Which channel to load, counted from 0", 0},
     {"split-channels", KEY_SPLIT, NULL, 0,
      "Take the channels of a TIFF apart instead of reading them as colours", 0},
+    {"labels", KEY_LABELS, NULL, 0,
+     "Take the values as labels, which are never averaged or interpolated; without it files that "
+     "say so are label maps, and those whose name and values do",
+     0},
     {"raw", KEY_RAW, "KEY=VALUE,...", 0,
      "How to read a headerless file: dims=64x64x64 (needed), type=uint8, spacing=1x1x2.5, "
      "origin=0x0x0, offset=BYTES, endian=little|big",

@@ -82,7 +82,8 @@ static bool divide(struct pel_device *device, int compute_units) {
     return true;
 }
 
-struct pel_device *pel_device_open(const char *selector, int compute_units) {
+struct pel_device *pel_device_open(const char *selector, int compute_units,
+                                   const struct pel_gl *gl) {
     if (!selector || !*selector)
         selector = getenv("PELLUCID_DEVICE");
     if (selector && !*selector)
@@ -105,10 +106,8 @@ struct pel_device *pel_device_open(const char *selector, int compute_units) {
         pel_device_close(device);
         return NULL;
     }
-    cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
-                                          (cl_context_properties)device->platform, 0};
     cl_int status;
-    device->context = clCreateContext(properties, 1, &device->id, NULL, NULL, &status);
+    device->context = pel_share_create_context(device, gl, &status);
     if (status == CL_SUCCESS)
         device->queue = clCreateCommandQueue(device->context, device->id, 0, &status);
     if (status != CL_SUCCESS) {
@@ -133,6 +132,10 @@ void pel_device_close(struct pel_device *device) {
 
 const struct pel_device_info *pel_device_describe(const struct pel_device *device) {
     return &device->info;
+}
+
+const char *pel_device_unshared(const struct pel_device *device) {
+    return device->unshared;
 }
 
 uint64_t pel_device_allocated_bytes(const struct pel_device *device) {

@@ -13,9 +13,11 @@ struct pel_kernel;
 // ---- Devices -----------------------------------------------------------------------------------
 
 // Opens the device that `selector` names, as struct pel_renderer_options says, or of one that can
-// be divided only that many compute units; 0: all. The caller owns it. NULL (DEVICE, ARGUMENT,
-// UNSUPPORTED) with a sentence that says what there is.
-struct pel_device *pel_device_open(const char *selector, int compute_units);
+// be divided only that many compute units; 0: all. Buffers of `gl` can be shared where the device
+// can. The caller owns it. NULL (DEVICE, ARGUMENT, UNSUPPORTED) with a sentence that says what
+// there is.
+struct pel_device *pel_device_open(const char *selector, int compute_units,
+                                   const struct pel_gl *gl);
 void pel_device_close(struct pel_device *device);
 
 // What the device is like. Borrowed.
@@ -24,6 +26,9 @@ const struct pel_device_info *pel_device_describe(const struct pel_device *devic
 // Bytes in buffers and textures now, and bytes sent to the device so far.
 uint64_t pel_device_allocated_bytes(const struct pel_device *device);
 uint64_t pel_device_uploaded_bytes(const struct pel_device *device);
+
+// Why buffers of OpenGL cannot be shared; "" when they can.
+const char *pel_device_unshared(const struct pel_device *device);
 
 // Waits for everything that was enqueued; false (DEVICE) if any of it failed.
 bool pel_device_finish(struct pel_device *device);
@@ -46,6 +51,13 @@ bool pel_buffer_give_back(struct pel_buffer *buffer);
 // Both wait until the bytes have been copied.
 bool pel_buffer_write(struct pel_buffer *buffer, size_t offset, size_t bytes, const void *data);
 bool pel_buffer_read(struct pel_buffer *buffer, size_t offset, size_t bytes, void *data);
+
+// A buffer of OpenGL, whose store must stay as it is until this is destroyed. Kernels may use it
+// between acquiring and releasing only, and OpenGL at all other times only; both wait until what
+// was enqueued before is done.
+struct pel_buffer *pel_buffer_share(struct pel_device *device, uint32_t gl_buffer);
+bool pel_buffer_acquire(struct pel_buffer *buffer);
+bool pel_buffer_release(struct pel_buffer *buffer);
 
 // What a texel of a 3-D image holds.
 enum pel_texel { PEL_TEXEL_R8, PEL_TEXEL_R16, PEL_TEXEL_R32F, PEL_TEXEL_RGBA8, PEL_TEXEL_COUNT };

@@ -4,6 +4,7 @@
 // Drivers are the part of the system we trust least: a platform that fails is a warning, a question
 // a device does not answer leaves a zero, and a device we cannot use says why.
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -60,6 +61,20 @@ static uint64_t ask_number(cl_device_id id, cl_device_info key) {
     if (clGetDeviceInfo(id, key, sizeof answer, &answer, &bytes) != CL_SUCCESS)
         return 0;
     return bytes == sizeof answer.small ? answer.small : answer.large;
+}
+
+// Whether an extension is in the device's list, which may be of any length.
+static bool has_extension(cl_device_id id, const char *name) {
+    size_t bytes = 0, length = strlen(name);
+    if (clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, 0, NULL, &bytes) != CL_SUCCESS)
+        return false;
+    char *list = calloc(bytes + 1, 1);
+    bool found = false;
+    if (list && clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, bytes, list, NULL) == CL_SUCCESS)
+        for (const char *at = list; !found && (at = strstr(at, name)); at += length)
+            found = (at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0');
+    free(list);
+    return found;
 }
 
 // Lanes for a CPU are its native vector's, but at least 4: narrower packets cost nothing there.
@@ -127,6 +142,7 @@ static void describe(const struct pel_device_place *place, struct pel_device_inf
     info->max_image[1] = ask_number(id, CL_DEVICE_IMAGE3D_MAX_HEIGHT);
     info->max_image[2] = ask_number(id, CL_DEVICE_IMAGE3D_MAX_DEPTH);
     info->images = ask_number(id, CL_DEVICE_IMAGE_SUPPORT) && info->max_image[2] > 1;
+    info->gl_sharing = has_extension(id, "cl_khr_gl_sharing");
     find_problem(id, info);
     choose(info);
 }

@@ -20,22 +20,29 @@ unsigned pel_image_quantise(double value, unsigned max) {
     return value >= 1 ? max : (unsigned)(value * max + 0.5);
 }
 
-struct pel_image *pel_image_create(int width, int height) {
+struct pel_image *pel_image_create_undefined(int width, int height) {
     if (width < 1 || height < 1) {
         pel_fail(PEL_ERROR_ARGUMENT, "a picture of %d x %d pixels", width, height);
         return NULL;
     }
-    size_t floats;
-    if (!pel_size_multiply(&floats, 3, (size_t[]){(size_t)width, (size_t)height, 4}))
+    size_t bytes;
+    if (!pel_size_multiply(&bytes, 3, (size_t[]){(size_t)width, (size_t)height, 4 * sizeof(float)}))
         return NULL;
     struct pel_image *image = pel_allocate(1, sizeof *image);
     if (!image)
         return NULL;
-    *image = (struct pel_image){width, height, pel_allocate(floats, sizeof(float))};
+    *image = (struct pel_image){width, height, pel_allocate_voxels(bytes)};
     if (!image->rgba) {
         pel_image_destroy(image);
         return NULL;
     }
+    return image;
+}
+
+struct pel_image *pel_image_create(int width, int height) {
+    struct pel_image *image = pel_image_create_undefined(width, height);
+    if (image)
+        memset(image->rgba, 0, (size_t)width * (size_t)height * 4 * sizeof *image->rgba);
     return image;
 }
 

@@ -5,6 +5,9 @@
 
 #include "pellucid.h"
 
+// A picture of any content, for who writes every pixel; else as pel_image_create.
+struct pel_image *pel_image_create_undefined(int width, int height);
+
 // The integer nearest to value * max, for a value clamped to 0..1; NaN counts as 0. `max` is 255 or
 // 65535.
 unsigned pel_image_quantise(double value, unsigned max);

@@ -22,7 +22,26 @@ static void mean(float out[4], const float a[4], const float b[4]) {
         out[c] = (a[c] + b[c]) / 2;
 }
 
-// One pixel of the result.
+// Which eye a row of one that is laid whole is of, and where it begins there; NULL where rows are
+// made pixel by pixel. A row of two pictures beside each other is two such rows.
+static const float *find_row(enum pel_stereo_kind kind, const struct pel_image *const eyes[2],
+                             int side, int y) {
+    switch (kind) {
+    case PEL_STEREO_SIDE_BY_SIDE:
+    case PEL_STEREO_TWO_FILES:
+        return pixel_of(eyes[side], 0, y);
+    case PEL_STEREO_TOP_BOTTOM:
+        return pixel_of(eyes[y / eyes[0]->height], 0, y % eyes[0]->height);
+    case PEL_STEREO_ROW_INTERLACED:
+        return pixel_of(eyes[y % 2], 0, y);
+    case PEL_STEREO_NONE:
+        return pixel_of(eyes[0], 0, y);
+    default:
+        return NULL;
+    }
+}
+
+// One pixel of the result, of the other kinds.
 static void lay_pixel(float out[4], enum pel_stereo_kind kind,
                       const struct pel_image *const eyes[2], int x, int y) {
     int width = eyes[0]->width, height = eyes[0]->height;
@@ -38,18 +57,6 @@ static void lay_pixel(float out[4], enum pel_stereo_kind kind,
         y = 2 * (y % (height / 2));
         mean(out, pixel_of(eye, x, y), pixel_of(eye, x, y + 1));
         return;
-    case PEL_STEREO_SIDE_BY_SIDE:
-    case PEL_STEREO_TWO_FILES:
-        eye = eyes[x / width];
-        x %= width;
-        break;
-    case PEL_STEREO_TOP_BOTTOM:
-        eye = eyes[y / height];
-        y %= height;
-        break;
-    case PEL_STEREO_ROW_INTERLACED:
-        eye = eyes[y % 2];
-        break;
     case PEL_STEREO_COLUMN_INTERLACED:
         eye = eyes[x % 2];
         break;
@@ -91,8 +98,16 @@ struct pel_image *pel_stereo_compose(const struct pel_stereo *stereo, const stru
     if (!image)
         return NULL;
     float *out = image->rgba;
-    for (int y = 0; y < image->height; y++)
-        for (int x = 0; x < image->width; x++, out += 4)
-            lay_pixel(out, stereo->kind, eyes, x, y);
+    size_t row_bytes = 4 * sizeof *out * (size_t)left->width;
+    for (int y = 0; y < image->height; y++) {
+        for (int side = 0; side < across; side++) {
+            const float *row = find_row(stereo->kind, eyes, side, y);
+            for (int x = 0; !row && x < left->width; x++)
+                lay_pixel(out + 4 * x, stereo->kind, eyes, x, y);
+            if (row)
+                memcpy(out, row, row_bytes);
+            out += 4 * left->width;
+        }
+    }
     return image;
 }

@@ -57,10 +57,10 @@ static int place(struct pel_scene *shown, struct pel_volume *volume,
 
 // There are no more volumes than instances in the new list, so that it cannot overflow.
 static bool replace(struct pel_detail *detail, const struct pel_scene *scene,
-                    struct pel_scene *shown) {
+                    const struct pel_camera *second, struct pel_scene *shown) {
     shown->volume_count = 0;
     for (int k = 0; k < scene->instance_count; k++) {
-        int v = scene->instances[k].volume, level = pel_detail_level(scene, k);
+        int v = scene->instances[k].volume, level = pel_detail_level(scene, second, k);
         struct pel_volume *volume = scene->volumes[v];
         if (level > 0)
             volume = take(detail, volume, level);
@@ -72,7 +72,8 @@ static bool replace(struct pel_detail *detail, const struct pel_scene *scene,
     return true;
 }
 
-bool pel_detail_show(struct pel_detail *detail, struct pel_scene *shown) {
+bool pel_detail_show(struct pel_detail *detail, struct pel_scene *shown,
+                     const struct pel_camera *second) {
     memset(&detail->statistics, 0, sizeof detail->statistics);
     if (shown->render.lod == PEL_LOD_OFF) {
         pel_detail_finish(detail);
@@ -87,7 +88,7 @@ bool pel_detail_show(struct pel_detail *detail, struct pel_scene *shown) {
         return false;
     *scene = *shown;
     forget_others(detail, scene);
-    bool good = replace(detail, scene, shown);
+    bool good = replace(detail, scene, second, shown);
     free(scene);
     for (int v = 0; good && v < shown->volume_count; v++)
         detail->statistics.bytes += pel_volume_bytes(shown->volumes[v]);

@@ -15,9 +15,11 @@ struct pel_detail {
     struct pel_lod_statistics statistics; // of the last scene
 };
 
-// Puts volumes of the levels that the scene asks for in the places of its own; the scene borrows
-// them, and everything else as before. False: ARGUMENT, MEMORY.
-bool pel_detail_show(struct pel_detail *detail, struct pel_scene *shown);
+// Puts volumes of the levels that the scene asks for in the places of its own, fine enough for its
+// camera and for a second eye's, which may be NULL; the scene borrows them, and everything else as
+// before. False: ARGUMENT, MEMORY.
+bool pel_detail_show(struct pel_detail *detail, struct pel_scene *shown,
+                     const struct pel_camera *second);
 void pel_detail_finish(struct pel_detail *detail);
 
 #endif

@@ -62,8 +62,9 @@ static void layer_pack(struct layer *layer, size_t z) {
         pel_pack_slice(layer->volume,
                        layer->slab->first - layer->slab->border[0] + (int)(first + i),
                        layer->slices + i * layer->slice_bytes);
-    size_t dims[3] = {layer->dims[0], layer->dims[1], count};
-    pel_brick_layer(layer->packed, layer->slices, dims, layer->voxel_bytes);
+    struct pel_brick_source source = {
+        layer->slices, {layer->dims[0], layer->dims[1], count}, 0, layer->voxel_bytes, 0};
+    pel_brick_layer(layer->packed, &source);
 }
 
 // ---- Ranges of values --------------------------------------------------------------------------

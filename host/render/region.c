@@ -42,7 +42,7 @@ void pel_region_widen(struct pel_render_settings *settings) {
 struct pel_image *pel_region_cut(struct pel_image *image, const struct pel_render_settings *widened,
                                  const struct pel_render_settings *settings) {
     const int *from = widened->region, *to = settings->region;
-    if (!image || memcmp(from, to, sizeof settings->region) == 0)
+    if (!image || !image->rgba || memcmp(from, to, sizeof settings->region) == 0)
         return image;
     int planes = image->height / from[3]; // pictures above each other
     struct pel_image *part = pel_image_create(to[2], planes * to[3]);

@@ -4,6 +4,7 @@
 // and run it over the tiles in short batches. What is on the device stays for the next frame.
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,7 @@
 #include "base/memory.h"
 #include "device/device.h"
 #include "render/bakery.h"
+#include "render/counts.h"
 #include "render/debug.h"
 #include "render/detail.h"
 #include "render/frame.h"
@@ -21,9 +23,11 @@
 #include "render/region.h"
 #include "render/residency.h"
 #include "render/resolve.h"
+#include "render/rounds.h"
 #include "render/target.h"
 #include "render/tiles.h"
 #include "render/settings.h"
+#include "render/share.h"
 #include "render/variant.h"
 #include "shared/pattern.h"
 #include "world/model.h"
@@ -41,9 +45,11 @@ struct pel_renderer {
     struct pel_bakery bakery;
     struct pel_detail detail;
     struct pel_target target;
+    struct pel_share share;
     struct pel_buffer *sample_counts;
     size_t sample_counts_bytes;
     struct pel_pace pace;
+    bool warned; // of loops that the device would leave
 };
 
 // Time since *mark, which moves to now.
@@ -127,28 +133,6 @@ static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
     return pel_device_finish(renderer->device);
 }
 
-// Adds up what the packets have counted.
-static void count_samples(struct pel_renderer *renderer, const struct pel_world *world,
-                          const struct pel_tiling *tiling,
-                          struct pel_render_statistics *statistics) {
-    size_t packets = tiling->tiles * tiling->packets_per_tile;
-    size_t pictures = (size_t)pel_world_pictures(world);
-    uint32_t(*counts)[SAMPLE_COUNTS] = pel_allocate(packets, sizeof *counts);
-    uint64_t possible = 0;
-    if (counts && pel_buffer_read(renderer->sample_counts, 0, packets * sizeof *counts, counts)) {
-        for (size_t i = 0; i < packets; i++) {
-            statistics->samples += counts[i][SAMPLES_TAKEN];
-            statistics->stereo.eye_samples[i / tiling->packets_per_tile % pictures] +=
-                counts[i][SAMPLES_TAKEN];
-            statistics->samples_terminated += counts[i][SAMPLES_BEHIND];
-            possible += counts[i][SAMPLES_POSSIBLE];
-        }
-        statistics->samples_skipped =
-            possible - statistics->samples - statistics->samples_terminated;
-    }
-    free(counts);
-}
-
 // The work-group that the user, the device or the kernel allows: a power of two.
 static size_t choose_group(const struct pel_renderer *renderer, const struct pel_kernel *kernel) {
     int wanted = renderer->options.work_group;
@@ -181,7 +165,8 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
 
     *tiling = pel_tiles_plan(&scene->render, pel_world_pictures(world), lanes,
                              choose_group(renderer, kernel));
-    size_t packets = (tiling->tiles + tiling->tiles_per_group) * tiling->packets_per_tile;
+    size_t packets = (tiling->tiles + tiling->tiles_per_group) * tiling->packets_per_tile *
+                     (size_t)pel_world_eyes(world);
     if (!pel_residency_update(&renderer->residency, scene, layout, world) ||
         !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
                            (world->eyes == EYES_ONE ? 1 : 2) * sizeof world->bytes.camera,
@@ -240,7 +225,8 @@ static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
                        const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
                        const struct pel_render_options *options,
                        struct pel_render_statistics *statistics) {
-    statistics->rays = count_pixels(world);
+    statistics->rays = (uint64_t)world->bytes.width * (uint64_t)world->bytes.height *
+                       (uint64_t)pel_world_eyes(world);
     statistics->refined = 1;
     if (eyes->only)
         return run_only(renderer, kernel, world, tiling, eyes->only, options, statistics);
@@ -267,15 +253,19 @@ static bool paint(struct pel_image *image, const struct pel_renderer *renderer, 
     return pel_debug_paint(image, view, options ? options->numbers : NULL, &statistics->debug);
 }
 
-// Runs the kernel and brings the picture here. The caller owns it.
+// Runs the kernel and brings the picture here, unless it can stay for OpenGL: then it is in the
+// target. The caller owns the image.
 static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *kernel,
                              const struct pel_scene *scene, const struct pel_world *world,
                              const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
                              const struct pel_render_options *options,
                              struct pel_render_statistics *statistics) {
     double mark = pel_clock_ms();
+    int across = pel_world_across(world), planes = pel_world_planes(world);
     struct pel_image *image =
-        pel_image_create(scene->render.width, pel_world_planes(world) * scene->render.height);
+        across > 1 ? pel_image_create(across * scene->render.width, planes * scene->render.height)
+                   : pel_share_create_image(&renderer->share, renderer->device, &scene->render,
+                                            planes, options, statistics);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
         return NULL;
@@ -294,23 +284,41 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
         pel_image_destroy(image);
         return NULL;
     }
-    count_samples(renderer, world, tiling, statistics);
+    pel_counts_add(renderer->sample_counts, tiling, pel_world_eyes(world),
+                   pel_world_pictures(world), statistics);
     statistics->download_ms = lap_ms(&mark);
     return image;
 }
 
 // The picture of nothing: the background.
 static struct pel_image *render_background(const struct pel_world *world) {
-    struct pel_image *image =
-        pel_image_create(world->bytes.width, pel_world_planes(world) * world->bytes.height);
+    struct pel_image *image = pel_image_create(pel_world_across(world) * world->bytes.width,
+                                               pel_world_planes(world) * world->bytes.height);
     if (!image)
         return NULL;
+    const struct world *bytes = &world->bytes;
+    const float4 *colour =
+        world->eyes == EYES_MERGED ? &bytes->merged_background : &bytes->background;
     size_t pixels = count_pixels(world);
     for (size_t i = 0; i < pixels; i++)
-        memcpy(&image->rgba[4 * i], &world->bytes.background, sizeof world->bytes.background);
+        memcpy(&image->rgba[4 * i], colour, sizeof *colour);
     for (size_t i = pixels; i < (size_t)image->width * (size_t)image->height; i++)
         image->rgba[4 * i] = FLT_MAX;
     return image;
+}
+
+static bool add_second(struct pel_world *world, const struct pel_scene *scene,
+                       const struct pel_frame_eyes *eyes) {
+    if (eyes->eyes != EYES_BOTH && eyes->eyes != EYES_MERGED && eyes->eyes != EYES_WOVEN)
+        return true;
+    if (!pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave))
+        return false;
+    if (eyes->eyes == EYES_MERGED)
+        pel_world_merge_eyes(world, eyes->glasses->matrix, eyes->glasses->linear,
+                             eyes->glasses->background);
+    if (eyes->beside)
+        pel_world_lay_beside(world);
+    return true;
 }
 
 // Plans where the voxels lie and makes the world's bytes, which go by that. Zeroes the statistics.
@@ -335,7 +343,7 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     }
     size_t pixel_bytes = (size_t)pel_world_planes(world) * sizeof(float4) +
                          (world->supersampling ? PEL_RESOLVE_BYTES : 0);
-    if ((eyes->second && !pel_world_add_eye(world, scene, eyes->second, eyes->eyes, eyes->weave)) ||
+    if (!add_second(world, scene, eyes) ||
         !pel_residency_check(layout, &limits, count_pixels(world) * pixel_bytes)) {
         pel_world_finish(world);
         return false;
@@ -366,7 +374,7 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_scene shown;
     if (!pel_region_check(&scene->render) ||
         !pel_bakery_show(&renderer->bakery, renderer->device, scene, &shown) ||
-        !pel_detail_show(&renderer->detail, &shown))
+        !pel_detail_show(&renderer->detail, &shown, eyes->second))
         return NULL;
     pel_region_widen(&shown.render);
     if (!plan(renderer, &shown, eyes, &layout, &world, statistics))
@@ -377,13 +385,24 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     struct pel_image *image = NULL;
     if (world.bytes.part_count == 0) {
         image = render_background(&world);
+        if (options && options->gl_buffer)
+            snprintf(statistics->gl_reason, sizeof statistics->gl_reason,
+                     "there is nothing to render");
     } else {
         struct pel_tiling tiling;
         struct pel_kernel *kernel = prepare(renderer, &shown, &layout, &world, &tiling, statistics);
+        pel_rounds_check(&renderer->warned, pel_device_describe(renderer->device), &world,
+                         statistics->skip);
         if (kernel)
             image = run(renderer, kernel, &shown, &world, eyes, &tiling, options, statistics);
     }
     pel_world_finish(&world);
+    if (image && !image->rgba &&
+        !pel_share_put(&renderer->share, renderer->device, &renderer->target, image, &shown.render,
+                       &scene->render, options, statistics)) {
+        pel_image_destroy(image);
+        image = NULL;
+    }
     const struct pel_device_info *info = pel_device_describe(renderer->device);
     memcpy(statistics->device, info->name, sizeof statistics->device);
     memcpy(statistics->driver, info->driver, sizeof statistics->driver);
@@ -391,6 +410,10 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
     statistics->device_bytes = pel_device_allocated_bytes(renderer->device);
     statistics->uploaded_bytes = pel_device_uploaded_bytes(renderer->device) - uploaded_before;
     return pel_region_cut(image, &shown.render, &scene->render);
+}
+
+void pel_renderer_forget_gl(struct pel_renderer *renderer, uint32_t gl_buffer) {
+    pel_share_forget(&renderer->share, gl_buffer);
 }
 
 bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *scene, int x, int y,
@@ -404,7 +427,7 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
                         "model emission is integrated exactly and takes no samples to tell of");
     struct pel_scene seen;
     if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen) ||
-        !pel_detail_show(&renderer->detail, &seen))
+        !pel_detail_show(&renderer->detail, &seen, NULL))
         return false;
     memset(seen.render.region, 0, sizeof seen.render.region);
     seen.render.debug = PEL_DEBUG_NONE;
@@ -450,7 +473,7 @@ struct pel_renderer *pel_renderer_create(const struct pel_renderer_options *opti
     if (!renderer)
         return NULL;
     renderer->options = chosen;
-    renderer->device = pel_device_open(chosen.device, chosen.compute_units);
+    renderer->device = pel_device_open(chosen.device, chosen.compute_units, &chosen.gl);
     renderer->options.device = NULL; // it was borrowed for this call
     renderer->residency.device = renderer->device;
     if (!renderer->device) {
@@ -470,6 +493,7 @@ void pel_renderer_destroy(struct pel_renderer *renderer) {
     pel_occupancy_finish(&renderer->occupancy);
     pel_resolve_finish(&renderer->resolve);
     pel_target_finish(&renderer->target);
+    pel_share_finish(&renderer->share);
     pel_buffer_destroy(renderer->sample_counts);
     pel_kernel_cache_finish(&renderer->kernels);
     pel_bakery_finish(&renderer->bakery);

@@ -61,6 +61,7 @@ struct shipment {
     const struct pel_volume *volume;
     const struct pel_slab *slab;
     size_t dims[3], voxel_bytes, slice_bytes;
+    int border;          // of bricks
     size_t room;         // slices in a piece
     size_t first, count; // those in it now
     char *slices;        // owned
@@ -73,11 +74,12 @@ static void shipment_finish(struct shipment *shipment) {
     free(shipment->layer);
 }
 
-// With bricks a piece is one layer of them and the slice behind it; else it is of about
+// With bricks a piece is one layer of them and the slices beside it; else it is of about
 // piece_bytes.
 static bool shipment_init(struct shipment *shipment, const struct pel_volume *volume,
-                          const struct pel_slab *slab, bool bricks) {
-    *shipment = (struct shipment){.volume = volume, .slab = slab};
+                          const struct pel_slab *slab, const struct pel_layout *layout) {
+    bool bricks = layout->reader == PEL_READER_BUFFER;
+    *shipment = (struct shipment){.volume = volume, .slab = slab, .border = layout->border};
     size_t *dims = shipment->dims;
     pel_slab_dims(slab, volume, dims);
     shipment->voxel_bytes = pel_voxel_class_bytes(slab->class_index);
@@ -85,7 +87,9 @@ static bool shipment_init(struct shipment *shipment, const struct pel_volume *vo
                            (size_t[]){dims[0], dims[1], shipment->voxel_bytes}))
         return false;
     size_t most = piece_bytes / shipment->slice_bytes;
-    shipment->room = bricks ? BRICK_SIDE + 1 : most > dims[2] ? dims[2] : most > 0 ? most : 1;
+    shipment->room = most > dims[2] ? dims[2] : most > 0 ? most : 1;
+    if (bricks)
+        shipment->room = (size_t)BRICK_ROW_OF(shipment->border);
     size_t bytes;
     if (!pel_size_multiply(&bytes, 2, (size_t[]){shipment->room, shipment->slice_bytes}))
         return false;
@@ -93,7 +97,7 @@ static bool shipment_init(struct shipment *shipment, const struct pel_volume *vo
     if (bricks) {
         if (!pel_size_multiply(&shipment->layer_bytes, 4,
                                (size_t[]){pel_brick_count(dims[0]), pel_brick_count(dims[1]),
-                                          BRICK_VOXELS,
+                                          BRICK_VOXELS_OF(shipment->border),
                                           pel_brick_element_bytes(shipment->voxel_bytes)})) {
             shipment_finish(shipment);
             return false;
@@ -106,11 +110,12 @@ static bool shipment_init(struct shipment *shipment, const struct pel_volume *vo
     return false;
 }
 
-// Packs the slices from the slab's border's slice `first` on, and adds those that are new to the
-// grid.
+// Packs the slices from the slab's border's slice `first` on, with bricks those that lie beside
+// them too, and adds those that are new to the grid.
 static void load_slices(struct shipment *shipment, size_t first, struct pel_grid *grid,
                         float scale) {
     const struct pel_slab *slab = shipment->slab;
+    first -= first > 0 ? (size_t)shipment->border : 0;
     size_t left = shipment->dims[2] - first, bytes = shipment->slice_bytes;
     size_t packed = shipment->first + shipment->count;
     size_t kept = packed > first ? packed - first : 0;
@@ -128,8 +133,13 @@ static bool send_slices(struct pel_residency *residency, struct shipment *shipme
     const struct pel_slab *slab = shipment->slab;
     size_t dims[3] = {shipment->dims[0], shipment->dims[1], shipment->count};
     if (shipment->layer) {
-        pel_brick_layer(shipment->layer, shipment->slices, dims, shipment->voxel_bytes);
-        size_t layer = shipment->first / BRICK_SIDE;
+        size_t layer = (shipment->first + BRICK_SIDE - 1) / BRICK_SIDE;
+        struct pel_brick_source source = {.slices = shipment->slices,
+                                          .dims = {dims[0], dims[1], dims[2]},
+                                          .first = layer * BRICK_SIDE - shipment->first,
+                                          .voxel_bytes = shipment->voxel_bytes,
+                                          .border = shipment->border};
+        pel_brick_layer(shipment->layer, &source);
         return pel_buffer_write(residency->buffers[slab->buffer],
                                 slab->offset_bytes + layer * shipment->layer_bytes,
                                 shipment->layer_bytes, shipment->layer);
@@ -165,7 +175,7 @@ static bool send_slab(struct pel_residency *residency, const struct pel_volume *
     struct shipment shipment;
     if (volume->hypertexture)
         return send_endless_ranges(residency, volume, slab);
-    if (!shipment_init(&shipment, volume, slab, bricks))
+    if (!shipment_init(&shipment, volume, slab, &residency->layout))
         return false;
     struct pel_grid grid;
     if (!pel_grid_init(&grid, shipment.dims, CELL_VOXELS, 0)) {

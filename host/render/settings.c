@@ -69,6 +69,8 @@ bool pel_settings_check_options(const struct pel_renderer_options *options) {
     if (options->compute_units < 0)
         return pel_fail(PEL_ERROR_ARGUMENT, "%d compute units, must be at least 1",
                         options->compute_units);
+    if ((unsigned)options->gl.platform > PEL_GL_EGL)
+        return pel_fail(PEL_ERROR_ARGUMENT, "OpenGL platform %d", (int)options->gl.platform);
     // A tile has at least four packets above each other, however many rays there are in one.
     if (rows < 0 || rows > TILE_PX / 4 || (rows & (rows - 1)) != 0)
         return pel_fail(PEL_ERROR_ARGUMENT, "work-groups of %d rows, must be 1, 2 or 4", rows);

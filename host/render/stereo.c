@@ -2,14 +2,20 @@
 //
 // The kernel takes tiles of either eye in turns, so that the second one finds the voxels in the
 // caches, and everything but a camera is prepared and sent once. Of an interlaced picture it
-// follows only the rays that are shown: a packet then has rays of both eyes.
+// follows only the rays that are shown: a packet then has rays of both eyes. Of an anaglyph each
+// work-item follows a packet of both eyes, one after the other, and leaves the colour that the
+// glasses make of them; and pictures beside each other are left where they belong. So there is one
+// picture and nothing to be put together.
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "output/stereo.h"
 #include "render/frame.h"
 #include "render/reproject.h"
+#include "world/world.h"
 
 static bool is_debug(const struct pel_scene *scene) {
     return scene->render.debug != PEL_DEBUG_NONE;
@@ -28,15 +34,38 @@ static bool find_weave(const struct pel_scene *scene, int weave[2]) {
            supersampling->filter == PEL_RECONSTRUCTION_BOX;
 }
 
-// Progress of one eye, as a part of both.
-struct part {
+// Whether rays end as pixels of the picture. With supersampling their mean does, and in a
+// reprojected eye and in debug views the host has its hand.
+static bool is_direct(const struct pel_scene *scene) {
+    const struct pel_supersampling *supersampling = &scene->render.supersampling;
+    return !scene->stereo.reproject && !is_debug(scene) && !(supersampling->adaptive > 0) &&
+           !pel_world_is_supersampled(supersampling);
+}
+
+// The glasses of an anaglyph.
+static bool put_on(struct pel_glasses *glasses, const struct pel_scene *scene) {
+    float premultiplied[4] = {0, 0, 0, (float)scene->background[3]};
+    for (int c = 0; c < 3; c++)
+        premultiplied[c] = (float)(scene->background[c] * scene->background[3]);
+    const struct pel_image behind = {1, 1, premultiplied};
+    struct pel_image *merged = pel_stereo_compose(&scene->stereo, &behind, &behind);
+    if (!merged)
+        return false;
+    memcpy(glasses->background, merged->rgba, sizeof glasses->background);
+    pel_image_destroy(merged);
+    glasses->linear = pel_anaglyph_matrix(&scene->stereo, glasses->matrix);
+    return true;
+}
+
+// Progress of one eye, as a share of both.
+struct share {
     const struct pel_render_options *options;
     double begin;
 };
 
-static bool report_part(double finished, void *user) {
-    const struct part *part = user;
-    return part->options->progress(part->begin + finished / 2, part->options->user);
+static bool report_share(double finished, void *user) {
+    const struct share *share = user;
+    return share->options->progress(share->begin + finished / 2, share->options->user);
 }
 
 // What is counted or timed adds up; what was chosen is that of the last eye.
@@ -66,18 +95,19 @@ static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_
                                       const struct pel_render_options *options,
                                       struct pel_render_statistics *statistics) {
     int width = seen->render.width, height = seen->render.height;
+    const struct pel_camera first = seen->camera;
     struct pel_image *both = NULL;
     *statistics = (struct pel_render_statistics){0};
     for (int i = 0; i < 2; i++) {
-        struct part part = {options, i / 2.0};
+        const struct pel_frame_eyes one = {.second = i == 0 ? second : &first};
+        struct share share = {options, i / 2.0};
         struct pel_render_options of_eye = options ? *options : (struct pel_render_options){0};
         if (of_eye.progress) {
-            of_eye.progress = report_part;
-            of_eye.user = &part;
+            of_eye.progress = report_share;
+            of_eye.user = &share;
         }
         struct pel_render_statistics of_frame;
-        struct pel_image *eye =
-            pel_frame_render(renderer, seen, &(struct pel_frame_eyes){0}, &of_eye, &of_frame);
+        struct pel_image *eye = pel_frame_render(renderer, seen, &one, &of_eye, &of_frame);
         if (eye && !both)
             both = pel_image_create(width, 2 * height);
         if (!eye || !both) {
@@ -114,12 +144,13 @@ static bool check_reproject(const struct pel_scene *scene) {
 
 // Renders the pixels of the second eye that the first one's picture does not tell.
 static bool fill_holes(struct pel_renderer *renderer, const struct pel_scene *seen,
-                       const uint8_t *holes, struct pel_image *second,
-                       const struct pel_render_options *options,
+                       const struct pel_camera *first, const uint8_t *holes,
+                       struct pel_image *second, const struct pel_render_options *options,
                        struct pel_render_statistics *statistics) {
     struct pel_render_statistics of_holes;
-    struct pel_image *cast = pel_frame_render(
-        renderer, seen, &(struct pel_frame_eyes){.only = holes}, options, &of_holes);
+    struct pel_image *cast =
+        pel_frame_render(renderer, seen, &(struct pel_frame_eyes){.second = first, .only = holes},
+                         options, &of_holes);
     if (!cast)
         return false;
     size_t pixels = (size_t)second->width * (size_t)second->height;
@@ -157,8 +188,8 @@ static bool make_second(struct pel_renderer *renderer, struct pel_scene *seen,
     statistics->stereo.reproject_ms = pel_clock_ms() - begin_ms;
     statistics->stereo.reprojected = 1 - (double)hole_count / (double)pixels;
     seen->camera = cameras[1];
-    good = good &&
-           (hole_count == 0 || fill_holes(renderer, seen, holes, &second, options, statistics));
+    good = good && (hole_count == 0 ||
+                    fill_holes(renderer, seen, &cameras[0], holes, &second, options, statistics));
     free(depth);
     free(holes);
     return good;
@@ -171,15 +202,15 @@ static struct pel_image *render_reprojected(struct pel_renderer *renderer, struc
                                             struct pel_render_statistics *statistics) {
     if (!check_reproject(seen))
         return NULL;
-    struct part part = {options, 0};
+    struct share share = {options, 0};
     struct pel_render_options of_eye = options ? *options : (struct pel_render_options){0};
     if (of_eye.progress) {
-        of_eye.progress = report_part;
-        of_eye.user = &part;
+        of_eye.progress = report_share;
+        of_eye.user = &share;
     }
-    const struct pel_frame_eyes with_depth = {.eyes = EYES_DEPTH};
+    const struct pel_frame_eyes with_depth = {.eyes = EYES_DEPTH, .second = &cameras[1]};
     struct pel_image *both = pel_frame_render(renderer, seen, &with_depth, &of_eye, statistics);
-    part.begin = 0.5;
+    share.begin = 0.5;
     if (both && make_second(renderer, seen, cameras, both, &of_eye, statistics))
         return both;
     pel_image_destroy(both);
@@ -195,6 +226,12 @@ static struct pel_image *render_pair(struct pel_renderer *renderer, const struct
     struct pel_stereo used;
     if (!pel_stereo_cameras(scene, cameras, &used))
         return NULL;
+    // Two pictures become one on the host.
+    struct pel_render_options here = options ? *options : (struct pel_render_options){0};
+    bool brought = here.gl_buffer && eyes->eyes == EYES_BOTH;
+    if (brought)
+        here.gl_buffer = 0;
+    options = &here;
     // The copy borrows everything the scene owns.
     struct pel_scene seen = *scene;
     seen.camera = cameras[0];
@@ -207,6 +244,9 @@ static struct pel_image *render_pair(struct pel_renderer *renderer, const struct
         image = render_reprojected(renderer, &seen, cameras, options, statistics);
     else
         image = pel_frame_render(renderer, &seen, &both, options, statistics);
+    if (brought)
+        snprintf(statistics->gl_reason, sizeof statistics->gl_reason,
+                 "two eyes are put together on the host");
     statistics->stereo.separation_mm = used.separation_mm;
     statistics->stereo.convergence_mm = used.convergence_mm;
     return image;
@@ -261,9 +301,19 @@ struct pel_image *pel_renderer_render(struct pel_renderer *renderer, const struc
     struct pel_frame_eyes eyes = {.eyes = EYES_ONE};
     if (scene->stereo.kind == PEL_STEREO_NONE)
         return pel_frame_render(renderer, scene, &eyes, options, statistics);
-    eyes.eyes = find_weave(scene, eyes.weave) ? EYES_WOVEN : EYES_BOTH;
+    struct pel_glasses glasses;
+    eyes.eyes = EYES_BOTH;
+    if (find_weave(scene, eyes.weave))
+        eyes.eyes = EYES_WOVEN;
+    else if (is_direct(scene) && pel_stereo_is_anaglyph(scene->stereo.kind))
+        eyes.eyes = EYES_MERGED;
+    eyes.beside = is_direct(scene) && scene->stereo.kind == PEL_STEREO_SIDE_BY_SIDE;
+    eyes.glasses = &glasses;
+    if (eyes.eyes == EYES_MERGED && !put_on(&glasses, scene))
+        return NULL;
     struct pel_image *image = render_pair(renderer, scene, &eyes, options, statistics);
-    if (!image || eyes.eyes == EYES_WOVEN)
+    if (!image || eyes.eyes != EYES_BOTH || eyes.beside ||
+        scene->stereo.kind == PEL_STEREO_TOP_BOTTOM)
         return image;
     double begin_ms = pel_clock_ms();
     int height = image->height / 2;

@@ -40,6 +40,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .masked = world->masked,
         .skip = skip_knob(skip),
         .pool = world->pool,
+        .border = world->border,
         .eyes = world->eyes,
         .capacity = parts <= 1   ? 1
                     : parts <= 8 ? 8
@@ -66,11 +67,11 @@ void pel_variant_write(const struct pel_variant *variant, char text[PEL_VARIANT_
              "-DCAPACITY=%d -DSHADING=%d -DTABLE_LINEAR=%d -DTABLE_SPACE=%s "
              "-DSUPERSAMPLING=%d -DJITTER=%d -DDEBUG=%d -DPROBE=%d -DMODELS=%d "
              "-DGROUP_ROWS=%d -DPOOL=%d -DCLIP=%d -DSTYLE=%d -DLIVE=%d -DEYES=%d -DMASKED=%d "
-             "-DSECONDARY=%d",
+             "-DSECONDARY=%d -DBORDER=%d",
              variant->lanes, variant->reader, variant->voxels, variant->filters, variant->mixing,
              variant->skip, variant->capacity, variant->shading, variant->table_linear,
              variant->table_global ? "__global" : "__constant", variant->supersampling,
              variant->jitter, variant->debug, variant->probe, variant->models, variant->group_rows,
              variant->pool, variant->clip, variant->style, variant->live, variant->eyes,
-             variant->masked, variant->secondary);
+             variant->masked, variant->secondary, variant->border);
 }

@@ -17,6 +17,7 @@ struct pel_variant {
     int models;     // MODELS_*
     int skip;       // SKIP_*
     bool pool;      // bricks come from a pool
+    bool border;    // bricks have a border, for gradients
     int eyes;       // EYES_*
     int capacity;   // parts: 1, 8 or WORLD_PART_MAX
     bool clip;      // some part is clipped

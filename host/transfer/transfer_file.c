@@ -174,8 +174,9 @@ static int read_word(const json_t *json, const char *const *words) {
     if (nearest)
         pel_fail(PEL_ERROR_FORMAT, "unknown word '%.32s'; did you mean '%s'", word, nearest);
     else
-        pel_fail(PEL_ERROR_FORMAT, "expected one of \"%s\", \"%s\"%s%s%s", words[0], words[1],
-                 words[2] ? ", \"" : "", words[2] ? words[2] : "", words[2] ? "\"" : "");
+        pel_fail(PEL_ERROR_FORMAT, "expected one of \"%s\", \"%s\"%s%s%s%s%.32s%s", words[0],
+                 words[1], words[2] ? ", \"" : "", words[2] ? words[2] : "", words[2] ? "\"" : "",
+                 word ? ", not \"" : "", word ? word : "", word ? "\"" : "");
     return -1;
 }
 

@@ -110,16 +110,21 @@ static void save_scene(struct pel_state *state) {
     if (!state->scene_path[0])
         snprintf(state->scene_path, sizeof state->scene_path, "scene.json");
     struct pel_scene *scene = pel_scene_copy(state->scene);
-    bool good = scene != NULL;
+    bool good = scene != NULL, seen = true;
     if (good) {
         // The picture of the file is that of the window.
         pel_screen_fit_whole(state, scene);
+        seen = pel_film_settle(scene);
         good = pel_scene_save(scene, state->scene_path);
     }
     if (good)
         pel_history_mark_saved(state->history);
-    pel_state_say(state, "%s%s", good ? "saved " : "",
-                  good ? state->scene_path : pel_error_message());
+    if (good && !seen)
+        pel_state_say(state, "saved %s, which shows frame %g of its animation and not this view",
+                      state->scene_path, scene->timeline.frame);
+    else
+        pel_state_say(state, "%s%s", good ? "saved " : "",
+                      good ? state->scene_path : pel_error_message());
     pel_scene_destroy(scene);
 }
 

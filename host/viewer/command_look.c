@@ -183,10 +183,8 @@ static bool change_cuts(struct pel_state *state, enum pel_action action) {
 static bool change_comparison(struct pel_state *state, enum pel_action action) {
     if (action != PEL_ACTION_COMPARE && action != PEL_ACTION_COMPARE_BACK)
         return false;
-    int mode = (int)state->compare.mode;
-    do
-        mode = next(mode, action == PEL_ACTION_COMPARE ? 1 : -1, pel_compare_names());
-    while (!pel_show_can(state, (enum pel_compare_mode)mode));
+    int mode =
+        next((int)state->compare.mode, action == PEL_ACTION_COMPARE ? 1 : -1, pel_compare_names());
     pel_show_set_mode(state, (enum pel_compare_mode)mode);
     pel_state_say(state, "compare: %s", pel_compare_names()[mode]);
     return true;

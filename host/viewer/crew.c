@@ -20,6 +20,8 @@ struct member {
 
 struct pel_crew {
     struct pel_renderer_options options;
+    struct pel_lender *lender; // borrowed; NULL, or the first member's renderer may use its buffers
+    bool entered;
     struct member members[MEMBERS];
     int member_count;
 };
@@ -134,14 +136,26 @@ static struct pel_scene scene_of_quality(const struct pel_scene *scene,
     return seen;
 }
 
+// Lends the view a buffer of OpenGL for its picture, where the renderer shares them.
+static struct pel_loan *lend(const struct share *share, const struct pel_render_settings *render) {
+    const struct pel_crew *crew = share->crew;
+    if (!crew->lender || share->frame->request->compared || share->member != &crew->members[0])
+        return NULL;
+    size_t width = (size_t)(render->region[2] > 0 ? render->region[2] : render->width);
+    size_t height = (size_t)(render->region[3] > 0 ? render->region[3] : render->height);
+    return pel_lender_lend(crew->lender, share->member->renderer, 4 * width * height);
+}
+
 static struct pel_image *render_view(struct share *share, int view,
                                      struct pel_render_statistics *statistics) {
     const struct pel_scene *scene = share->frame->request->scenes[view];
     const struct pel_quality *quality = &share->frame->quality;
-    const struct pel_render_options options = {
+    struct pel_render_options options = {
         .progress = go_on, .user = share, .batch_ms = share->frame->batch_ms};
     struct pel_pixels *pixels = &share->picture->views[view];
     struct pel_scene seen = scene_of_quality(scene, quality, pixels->part);
+    pixels->loan = lend(share, &seen.render);
+    options.gl_buffer = pel_loan_name(pixels->loan);
     if (quality->divisor > 1 && is_interlaced(scene->stereo.kind))
         return render_interlaced(share->member->renderer, &seen, &scene->render, &options,
                                  statistics, pixels->part);
@@ -155,14 +169,29 @@ static uint8_t quantise(float value) {
     return value >= 1 ? 255 : (uint8_t)((double)value * 255 + 0.5);
 }
 
+// Without them the picture is in the loan.
 static bool take_pixels(struct pel_pixels *pixels, const struct pel_image *image) {
     size_t count = (size_t)image->width * (size_t)image->height * 4;
     pixels->width = image->width;
     pixels->height = image->height;
+    if (!image->rgba)
+        return true;
+    pel_loan_return(pixels->loan);
+    pixels->loan = NULL;
     pixels->rgba = malloc(count);
     for (size_t i = 0; pixels->rgba && i < count; i++)
         pixels->rgba[i] = quantise(image->rgba[i]);
     return pixels->rgba != NULL;
+}
+
+// Says why the host has the pixels, where the renderer was not asked to do without.
+static void explain(const struct share *share, struct pel_render_statistics *statistics) {
+    const char *reason = !share->crew->lender                        ? ""
+                         : share->frame->request->compared           ? "pictures are compared"
+                         : share->member != &share->crew->members[0] ? "its device is another one"
+                                                                     : "OpenGL has no buffer";
+    if (!statistics->gl_reason[0])
+        snprintf(statistics->gl_reason, sizeof statistics->gl_reason, "%s", reason);
 }
 
 // ---- One member's views ------------------------------------------------------------------------
@@ -170,6 +199,9 @@ static bool take_pixels(struct pel_pixels *pixels, const struct pel_image *image
 static bool open_renderer(struct pel_crew *crew, struct member *member) {
     struct pel_renderer_options options = crew->options;
     options.device = member->device;
+    // OpenGL is with the thread of the first one.
+    if (member != &crew->members[0])
+        options.gl = (struct pel_gl){0};
     if (!member->renderer)
         member->renderer = pel_renderer_create(&options);
     return member->renderer != NULL;
@@ -184,6 +216,8 @@ static bool render_views(struct share *share) {
         struct pel_render_statistics statistics;
         struct pel_image *image = render_view(share, view, &statistics);
         bool good = image && take_pixels(&picture->views[view], image);
+        if (good && image->rgba)
+            explain(share, &statistics);
         pel_image_destroy(image);
         if (!good)
             return false;
@@ -247,10 +281,16 @@ static bool share_out(struct pel_crew *crew, const struct pel_crew_frame *frame,
         }
         shares[i].views[shares[i].view_count++] = view;
     }
+    for (int i = 1; i < *share_count; i++)
+        if (shares[i].member == &crew->members[0]) {
+            struct share first = shares[0];
+            shares[0] = shares[i];
+            shares[i] = first;
+        }
     return true;
 }
 
-// Lets all members work; the first one on this thread.
+// Lets all members work; the first one on this thread, which may be the one that has OpenGL.
 static void let_work(struct share *shares, int count) {
     for (int i = 1; i < count; i++)
         shares[i].threaded = pthread_create(&shares[i].thread, NULL, work, &shares[i]) == 0;
@@ -297,11 +337,13 @@ struct pel_renderer *pel_crew_first(struct pel_crew *crew) {
     return open_renderer(crew, &crew->members[0]) ? crew->members[0].renderer : NULL;
 }
 
-struct pel_crew *pel_crew_create(const struct pel_renderer_options *options) {
+struct pel_crew *pel_crew_create(const struct pel_renderer_options *options,
+                                 struct pel_lender *lender) {
     struct pel_crew *crew = calloc(1, sizeof *crew);
     if (!crew)
         return NULL;
     crew->options = *options;
+    crew->lender = lender;
     crew->member_count = 1;
     if (options->device) {
         crew->members[0].device = strdup(options->device);
@@ -313,6 +355,12 @@ struct pel_crew *pel_crew_create(const struct pel_renderer_options *options) {
     return crew;
 }
 
+void pel_crew_enter(struct pel_crew *crew) {
+    crew->entered = true;
+    if (crew->lender)
+        pel_lender_enter(crew->lender, &crew->options.gl);
+}
+
 void pel_crew_destroy(struct pel_crew *crew) {
     if (!crew)
         return;
@@ -320,5 +368,7 @@ void pel_crew_destroy(struct pel_crew *crew) {
         pel_renderer_destroy(crew->members[i].renderer);
         free(crew->members[i].device);
     }
+    if (crew->lender && crew->entered)
+        pel_lender_leave(crew->lender);
     free(crew);
 }

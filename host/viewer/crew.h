@@ -22,8 +22,13 @@ struct pel_crew_frame {
     void *user;
 };
 
-// A crew with no renderers yet: they are made when they are needed. NULL: memory ran out.
-struct pel_crew *pel_crew_create(const struct pel_renderer_options *options);
+// A crew with no renderers yet: they are made when they are needed. Pictures stay in what the
+// lender lends where that can be; it may be NULL. NULL: memory ran out.
+struct pel_crew *pel_crew_create(const struct pel_renderer_options *options,
+                                 struct pel_lender *lender);
+
+// Called first by the thread that asks for everything below, which then destroys the crew, too.
+void pel_crew_enter(struct pel_crew *crew);
 void pel_crew_destroy(struct pel_crew *crew);
 
 // The one on the options' own device; NULL, with the library's error set, when there is none.

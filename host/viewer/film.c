@@ -52,6 +52,39 @@ void pel_film_take_back(struct pel_state *state) {
     pel_film_set(state, keyframes, count - 1, fps_of(state->scene));
 }
 
+// ---- Stills ------------------------------------------------------------------------------------
+
+static bool same_view(const struct pel_camera *a, const struct pel_camera *b) {
+    double far_mm = 0, scale_mm = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        far_mm = fmax(far_mm, fabs(a->eye[axis] - b->eye[axis]));
+        far_mm = fmax(far_mm, fabs(a->target[axis] - b->target[axis]));
+        far_mm = fmax(far_mm, fabs(a->up[axis] - b->up[axis]));
+        scale_mm = fmax(scale_mm, fmax(fabs(a->eye[axis]), fabs(a->target[axis])));
+    }
+    return far_mm <= 1e-9 * scale_mm && a->orthographic == b->orthographic &&
+           fabs(a->fov_deg - b->fov_deg) < 1e-9 && fabs(a->height_mm - b->height_mm) < 1e-9;
+}
+
+bool pel_film_settle(struct pel_scene *scene) {
+    struct pel_timeline *timeline = &scene->timeline;
+    if (timeline->frame_count == 0)
+        return true;
+    struct pel_scene *still = pel_scene_copy(scene);
+    bool seen = still && pel_scene_set_frame(still, timeline->frame) &&
+                same_view(&still->camera, &scene->camera);
+    pel_scene_destroy(still);
+    struct pel_keyframe keyframes[PEL_FILM_KEYFRAMES];
+    int count = seen ? 0 : pel_scene_keyframes(scene, keyframes, PEL_FILM_KEYFRAMES);
+    for (int i = 0; i < count && count <= PEL_FILM_KEYFRAMES && !seen; i++) {
+        if (!same_view(&keyframes[i].camera, &scene->camera))
+            continue;
+        timeline->frame = keyframes[i].time_s * timeline->fps;
+        seen = pel_scene_set_keyframes(scene, keyframes, count, timeline->fps);
+    }
+    return seen;
+}
+
 // ---- Playing -----------------------------------------------------------------------------------
 
 // Puts a copy of the scene, as it is now, into the projector.

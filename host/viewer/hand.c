@@ -127,7 +127,8 @@ static void move_split(struct pel_state *state, const double at_px[2]) {
 // A face of the orientation cube under the pointer shows what is seen from there.
 static bool take_cube(struct pel_state *state, const struct pel_event *event) {
     struct pel_cube_face faces[3];
-    int count = event->window == state->window_count - 1 ? pel_state_cube(state, faces) : 0;
+    bool there = event->window == state->views[state->picture_count - 1].window;
+    int count = there ? pel_state_cube(state, faces) : 0;
     int face = pel_orientation_cube_hit(faces, count, (double[]){event->x, event->y});
     const char *const *names = pel_navigation_view_names();
     for (int i = 0; face >= 0 && names[i]; i++)
@@ -140,7 +141,7 @@ static void begin_left_drag(struct pel_state *state, const struct pel_event *eve
     int modifiers = event->modifiers;
     if (take_cube(state, event))
         return;
-    if (state->drag_view > 0 && state->compare.mode == PEL_COMPARE_SLICES) {
+    if (state->views[state->drag_view].slot > 0) {
         state->drag = PEL_DRAG_CROSS;
         move_cross(state, state->drag_px);
     } else if (is_on_split(state)) {

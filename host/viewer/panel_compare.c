@@ -18,12 +18,8 @@ static void draw_sides(struct pel_state *state) {
 void pel_panel_compare(struct pel_state *state) {
     struct pel_compare *compare = &state->compare;
     int mode = (int)compare->mode;
-    if (pel_widget_choose("compare", pel_compare_names(), &mode)) {
-        if (pel_show_can(state, (enum pel_compare_mode)mode))
-            pel_show_set_mode(state, (enum pel_compare_mode)mode);
-        else
-            pel_state_say(state, "a wall has no room for slices beside the picture");
-    }
+    if (pel_widget_choose("compare", pel_compare_names(), &mode))
+        pel_show_set_mode(state, (enum pel_compare_mode)mode);
     if (mode == PEL_COMPARE_SLICES) {
         if (pel_widget_check("values as grey", &state->slices_windowed))
             state->slices_old = true;

@@ -3,10 +3,12 @@
 #include <string.h>
 
 #include "viewer/panel.h"
+#include "viewer/show.h"
 
 void pel_panel_statistics(struct pel_state *state) {
     const struct pel_render_statistics *taken = &state->shown.statistics;
     const struct pel_quality *quality = &state->shown.quality;
+    const char *reason = pel_show_presented(state);
     char text[1024];
     snprintf(text, sizeof text,
              "%.1f pictures/s, %.1f ms each\n"
@@ -14,14 +16,15 @@ void pel_panel_statistics(struct pel_state *state) {
              "%.3g million samples, %.3g million rays\n"
              "prepare %.2f  build %.1f  upload %.2f  skip %.2f\n"
              "render %.1f  download %.2f ms\n"
-             "%.1f MiB on the device, %.1f KiB sent\n%s",
+             "%.1f MiB on the device, %.1f KiB sent\n%s\n"
+             "presented by: %s%s",
              state->shown.frame_ms > 0 ? 1e3 / state->shown.frame_ms : 0, state->shown.frame_ms,
              quality->divisor, quality->step_factor, quality->supersampling, quality->supersampling,
              state->shown.final ? "" : ", being refined", (double)taken->samples * 1e-6,
              (double)taken->rays * 1e-6, taken->prepare_ms, taken->build_ms, taken->upload_ms,
              taken->skip_ms, taken->render_ms, taken->download_ms,
              (double)taken->device_bytes / 1048576.0, (double)taken->uploaded_bytes / 1024.0,
-             taken->device);
+             taken->device, reason[0] ? "pixel buffer\n" : "shared buffer", reason);
     pel_widget_text(text);
 }
 

@@ -113,7 +113,7 @@ static void draw_help(struct pel_state *state) {
             pel_widget_gap();
             pel_widget_quiet_text(rows[i].group);
         }
-        pel_widget_row(rows[i].keys, rows[i].help, 200 * scale);
+        pel_widget_row(rows[i].keys, rows[i].help, 220 * scale);
     }
     pel_widget_dialog_end();
 }
@@ -144,6 +144,9 @@ static void draw_messages(struct pel_state *state) {
         const double low[2] = {left, window->pixels[1] - 4.0};
         const double high[2] = {left + width * state->status.finished, window->pixels[1]};
         pel_widget_box(low, high, 0xFFE0A040, true);
+        // New kernels and volumes come before the first ray.
+        if (!(state->status.finished > 0))
+            draw_line(state, 2, 0xFFE0A040, "preparing: kernels are compiled, volumes sent");
     }
     pel_widget_draw_over(false);
 }

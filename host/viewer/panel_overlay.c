@@ -150,8 +150,8 @@ static void draw_values(struct pel_state *state, const struct pel_view *view,
     for (int i = -1; i < pick->count; i++, y += line_px) {
         const struct pel_instance *instance = &state->scene->instances[i < 0 ? 0 : i];
         if (i >= 0 && !pick->values[i].inside)
-            continue;
-        if (i >= 0)
+            snprintf(text, sizeof text, "%s: outside", instance->name);
+        else if (i >= 0)
             snprintf(text, sizeof text, "%s %.5g %s", instance->name, pick->values[i].value,
                      state->scene->volumes[instance->volume]->unit);
         const double low[2] = {x - 4, y - 1};
@@ -161,7 +161,7 @@ static void draw_values(struct pel_state *state, const struct pel_view *view,
     }
 }
 
-// The line of a split, and the cross-hair in the slices and in the picture.
+// The line of a split, and the cross-hair in the picture.
 static void draw_comparison(const struct pel_state *state, const struct pel_view *view,
                             const struct pel_rectangle *where) {
     const struct pel_compare *compare = &state->compare;
@@ -175,21 +175,6 @@ static void draw_comparison(const struct pel_state *state, const struct pel_view
             pel_widget_line((double[]){x, where->y}, (double[]){x, where->y + where->height}, white,
                             1);
     }
-    for (int i = state->picture_count; i < state->view_count; i++) {
-        const struct pel_rectangle *place = &state->views[i].place;
-        struct pel_slice slice;
-        double at[2];
-        if (!pel_show_slice(state, i, &slice))
-            continue;
-        pel_slice_pixel(&slice, state->cross, at);
-        double x = place->x + at[0], y = place->y + at[1];
-        pel_widget_line((double[]){place->x, y}, (double[]){place->x + place->width, y}, 0xA040E0FF,
-                        1);
-        pel_widget_line((double[]){x, place->y}, (double[]){x, place->y + place->height},
-                        0xA040E0FF, 1);
-        pel_widget_write((double[]){place->x + 6, place->y + 4}, white,
-                         pel_slice_names()[slice.plane]);
-    }
     double at[2];
     if (compare->mode == PEL_COMPARE_SLICES && pel_view_project(view, state->cross, at)) {
         at[0] += where->x, at[1] += where->y;
@@ -197,22 +182,45 @@ static void draw_comparison(const struct pel_state *state, const struct pel_view
     }
 }
 
-void pel_panel_overlay(struct pel_state *state, int window) {
-    // A window has one picture, the first of its views.
-    const struct pel_screen_view *shown = &state->views[window];
-    const struct pel_rectangle picture = picture_place(shown);
-    struct pel_view view;
-    if (!pel_state_view(state, window, &view))
-        return;
-    pel_widget_draw_over(true);
-    if (window == state->window_count - 1) {
-        draw_cube(state);
-        draw_scale(state, &view, &shown->place);
+// The cross-hair in the slices of a window, or the parts of them there, and what they are.
+static void draw_crosses(const struct pel_state *state, int window) {
+    for (int i = state->picture_count; i < state->view_count; i++) {
+        const struct pel_screen_view *shown = &state->views[i];
+        const struct pel_rectangle *place = &shown->place;
+        struct pel_slice slice;
+        double at[2];
+        if (shown->window != window || !pel_show_slice(state, i, &slice))
+            continue;
+        pel_slice_pixel(&slice, state->cross, at);
+        double right = place->x + place->width, bottom = place->y + place->height;
+        double x = place->x + at[0] - shown->offset[0], y = place->y + at[1] - shown->offset[1];
+        if (y >= place->y && y < bottom)
+            pel_widget_line((double[]){place->x, y}, (double[]){right, y}, 0xA040E0FF, 1);
+        if (x >= place->x && x < right)
+            pel_widget_line((double[]){x, place->y}, (double[]){x, bottom}, 0xA040E0FF, 1);
+        if (i == state->picture_count || state->views[i - 1].slot != shown->slot)
+            pel_widget_write((double[]){place->x + 6, place->y + 4}, white,
+                             pel_slice_names()[slice.plane]);
     }
-    const double at[2] = {state->pointer_px[0] - picture.x, state->pointer_px[1] - picture.y};
-    draw_handles(state, &picture, window == state->pointer_window ? at : NULL);
-    draw_comparison(state, &view, &picture);
-    if (window == state->pointer_window)
-        draw_values(state, &view, shown);
+}
+
+void pel_panel_overlay(struct pel_state *state, int window) {
+    int number = pel_state_picture_in(state, window);
+    struct pel_view view;
+    pel_widget_draw_over(true);
+    draw_crosses(state, window);
+    if (number >= 0 && pel_state_view(state, number, &view)) {
+        const struct pel_screen_view *shown = &state->views[number];
+        const struct pel_rectangle picture = picture_place(shown);
+        const double at[2] = {state->pointer_px[0] - picture.x, state->pointer_px[1] - picture.y};
+        if (number == state->picture_count - 1) {
+            draw_cube(state);
+            draw_scale(state, &view, &shown->place);
+        }
+        draw_handles(state, &picture, window == state->pointer_window ? at : NULL);
+        draw_comparison(state, &view, &picture);
+        if (window == state->pointer_window)
+            draw_values(state, &view, shown);
+    }
     pel_widget_draw_over(false);
 }

@@ -1,12 +1,17 @@
 // panel_pose.c - where the selected volume lies: numbers, and files of transforms.
 #include "viewer/panel.h"
 
+#include <math.h>
+
 static void draw_numbers(struct pel_state *state) {
     static const char *const moves[] = {"right (x)", "anterior (y)", "superior (z)"};
     static const char *const turns[] = {"about x", "about y", "about z"};
     struct pel_pose pose = pel_command_get_pose(state);
     for (int i = 0; i < 6; i++) {
         double *value = i < 3 ? &pose.move_mm[i] : &pose.turn_deg[i - 3];
+        // A rounding error would be shown as -0.00.
+        if (fabs(*value) < 1e-6)
+            *value = 0;
         double limit = i < 3 ? 200 : i == 4 ? 90 : 180;
         if (pel_widget_slide(i < 3 ? moves[i] : turns[i - 3], value, -limit, limit,
                              i < 3 ? "%.2f mm" : "%.2f degrees")) {

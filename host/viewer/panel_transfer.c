@@ -191,9 +191,10 @@ void pel_panel_transfer(struct pel_state *state) {
     edit_opacity(state);
     edit_colours(state);
     draw_window(state);
-    const char *const *names = pel_transfer_presets();
-    if (pel_widget_choose("preset", names, &state->preset))
-        pel_command_preset(state, state->preset);
+    // A function that was edited is no preset any more, so none is claimed.
+    int preset = -1;
+    if (pel_widget_choose("preset", pel_transfer_presets(), &preset))
+        pel_command_preset(state, preset);
     pel_panel_slide_log(state, "opacity unit", &instance->transfer->opacity_unit_mm, 0.01, 100,
                         "%.3g mm");
     pel_widget_quiet_text("Click: new point. Right click: away with it. Shift + drag in the "

@@ -156,11 +156,11 @@ static void draw_information(const struct pel_state *state, const struct pel_ins
     char text[768];
     snprintf(text, sizeof text,
              "%s\n%d x %d x %d voxels, %s\n%.4g x %.4g x %.4g mm, %s\n"
-             "%g to %g %s, mean %.4g",
+             "%g to %g%s%s, mean %.4g",
              file ? file : volume->name, volume->dims[0], volume->dims[1], volume->dims[2],
              pel_voxel_type_name(volume->type), spacing_mm[0], spacing_mm[1], spacing_mm[2],
              volume->space[0] ? volume->space : "no space named", statistics->min, statistics->max,
-             volume->unit, statistics->mean);
+             volume->unit[0] ? " " : "", volume->unit, statistics->mean);
     pel_widget_quiet_text(text);
 }
 

@@ -139,6 +139,15 @@ void pel_present_upload(struct pel_present *present, int slot, int width, int he
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
 }
 
+void pel_present_take(struct pel_present *present, int slot, int width, int height,
+                      uint32_t buffer) {
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffer);
+    fit_texture(&present->pictures[slot], width, height);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+}
+
 void pel_present_begin(struct pel_present *present, const int window_px[2]) {
     memcpy(present->window_px, window_px, sizeof present->window_px);
     glDisable(GL_SCISSOR_TEST);

@@ -1,8 +1,9 @@
 // present.h - brings pictures into a window with OpenGL 3.3 core; nothing is rendered with it.
 //
-// Pixels travel through a pixel buffer object into a texture, and the texture is drawn as it is:
-// where sizes agree, a pixel of the picture is a pixel of the window. All functions work on the
-// OpenGL context that is current, and a presenter belongs to the one it was made in.
+// Pixels travel through a pixel buffer object, which OpenCL may have written, into a texture, and
+// the texture is drawn as it is: where sizes agree, a pixel of the picture is a pixel of the
+// window. All functions work on the OpenGL context that is current, and a presenter belongs to the
+// one it was made in.
 #ifndef PEL_VIEWER_PRESENT_H
 #define PEL_VIEWER_PRESENT_H
 
@@ -24,6 +25,10 @@ void pel_present_destroy(struct pel_present *present);
 // Makes picture number `slot` from 8-bit RGBA, rows from the top.
 void pel_present_upload(struct pel_present *present, int slot, int width, int height,
                         const uint8_t *rgba);
+
+// The same from a buffer of OpenGL that already holds the pixels.
+void pel_present_take(struct pel_present *present, int slot, int width, int height,
+                      uint32_t buffer);
 
 // Clears the whole window of this size. What is drawn next goes into it.
 void pel_present_begin(struct pel_present *present, const int window_px[2]);

@@ -12,7 +12,9 @@ void pel_request_finish(struct pel_request *request) {
 void pel_picture_destroy(struct pel_picture *picture) {
     if (!picture)
         return;
-    for (int i = 0; i < PEL_REQUEST_VIEWS; i++)
+    for (int i = 0; i < PEL_REQUEST_VIEWS; i++) {
         free(picture->views[i].rgba);
+        pel_loan_return(picture->views[i].loan);
+    }
     free(picture);
 }

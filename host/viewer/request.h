@@ -2,6 +2,7 @@
 #ifndef PEL_VIEWER_REQUEST_H
 #define PEL_VIEWER_REQUEST_H
 
+#include "viewer/lender.h"
 #include "viewer/pace.h"
 
 // Both sides of a comparison in every window of a wall.
@@ -14,6 +15,7 @@ struct pel_request {
                                                  // or "": what renders the rest
     int view_count;
     bool moving;      // more is to come: one quick picture, no refinement
+    bool compared;    // the host wants the pixels
     double target_ms; // for the quick picture
 };
 
@@ -21,7 +23,8 @@ struct pel_request {
 // may be fewer than asked for.
 struct pel_pixels {
     int width, height;
-    uint8_t *rgba;  // owned by the picture
+    uint8_t *rgba;         // owned by the picture; NULL: they are in the loan
+    struct pel_loan *loan; // returned with the picture; or NULL
     double part[4]; // what of them the view shows: left and top edge, width and height, in shares
 };
 
@@ -33,7 +36,8 @@ struct pel_picture {
     bool final; // of the scene's own quality
     struct pel_quality quality;
     double frame_ms;                         // from its begin until it could be taken
-    struct pel_render_statistics statistics; // of the last view
+    struct pel_render_statistics statistics; // of the last view; of pixels that are on the host
+                                             // though there was a lender, gl_reason says why
 };
 
 // Takes the request's scenes away.

@@ -13,7 +13,10 @@
 static bool open_window(struct pel_state *state, const struct pel_window_options *wanted,
                         char *sentence, size_t bytes) {
     struct pel_pane_window *window = &state->windows[state->window_count];
-    window->window = pel_window_create(wanted, &state->queue, sentence, bytes);
+    struct pel_window_options options = *wanted;
+    if (state->sharing && state->window_count > 0)
+        options.shares = state->windows[0].window;
+    window->window = pel_window_create(&options, &state->queue, sentence, bytes);
     if (!window->window)
         return false;
     state->window_count++;
@@ -65,15 +68,38 @@ static bool open_wall(struct pel_state *state, char *sentence, size_t bytes) {
     return true;
 }
 
+// Windows share their objects only when a device can have a part in it.
+static bool is_sharing_possible(void) {
+    struct pel_device_info devices[PEL_DEVICE_MAX];
+    int count = pel_device_list(devices);
+    for (int i = 0; i < count; i++)
+        if (devices[i].gl_sharing && devices[i].usable)
+            return true;
+    return false;
+}
+
+// Gives the rendering thread an OpenGL context of its own, if that is of use.
+static void open_lender(struct pel_state *state) {
+    if (!state->sharing) {
+        snprintf(state->unshared, sizeof state->unshared, "no device has cl_khr_gl_sharing");
+        return;
+    }
+    struct pel_window *unseen =
+        pel_window_create_unseen(state->windows[0].window, state->unshared, sizeof state->unshared);
+    state->lender = unseen ? pel_lender_create(unseen) : NULL;
+}
+
 bool pel_screen_open(struct pel_state *state, char *sentence, size_t bytes) {
     if (state->options->full_screen > pel_window_monitor_count()) {
-        snprintf(sentence, bytes, "there is no monitor %d, but %d of them",
-                 state->options->full_screen, pel_window_monitor_count());
+        snprintf(sentence, bytes, "there is no monitor %d: they are counted from 0 to %d",
+                 state->options->full_screen - 1, pel_window_monitor_count() - 1);
         return false;
     }
     bool wall = state->options->scene->wall.region_count > 0;
+    state->sharing = is_sharing_possible();
     if (!(wall ? open_wall(state, sentence, bytes) : open_single(state, sentence, bytes)))
         return false;
+    open_lender(state);
     state->with_panels = pel_panels_start(state);
     if (wall && state->options->full_screen)
         pel_screen_toggle_full_screen(state);
@@ -89,6 +115,8 @@ void pel_screen_close(struct pel_state *state) {
         pel_window_destroy(state->windows[i].window);
     }
     state->window_count = 0;
+    pel_lender_destroy(state->lender);
+    state->lender = NULL;
 }
 
 void pel_screen_name(struct pel_state *state) {
@@ -130,71 +158,113 @@ static struct pel_screen_view make_view(struct pel_rectangle place) {
 }
 
 // The picture gives three quarters of its place to slices: axial and coronal above, sagittal at its
-// left.
-static void make_room_for_slices(struct pel_state *state) {
-    const struct pel_rectangle whole = state->views[0].place;
-    int left = whole.width / 2, top = whole.height / 2;
-    int right = whole.width - left, bottom = whole.height - top;
-    const struct pel_rectangle places[] = {{whole.x + left, whole.y + top, right, bottom},
-                                           {whole.x, whole.y, left - 1, top - 1},
-                                           {whole.x + left, whole.y, right, top - 1},
-                                           {whole.x, whole.y + top, left - 1, bottom}};
-    if (left < 2 || top < 2)
-        return;
-    for (int i = 0; i < 4; i++)
-        state->views[i] = make_view(places[i]);
-    state->view_count = 4;
-    state->slices_old = true;
+// left. False when there is no room; in the order of the views' slots.
+static bool cut_in_four(const struct pel_rectangle *whole, struct pel_rectangle places[4]) {
+    int left = whole->width / 2, top = whole->height / 2;
+    int right = whole->width - left, bottom = whole->height - top;
+    places[0] = (struct pel_rectangle){whole->x + left, whole->y + top, right, bottom};
+    places[1] = (struct pel_rectangle){whole->x, whole->y, left - 1, top - 1};
+    places[2] = (struct pel_rectangle){whole->x + left, whole->y, right, top - 1};
+    places[3] = (struct pel_rectangle){whole->x, whole->y + top, left - 1, bottom};
+    return left >= 2 && top >= 2;
 }
 
-static void lay_out_wall(struct pel_state *state) {
-    state->view_count = state->picture_count = state->window_count;
-    for (int i = 0; i < state->window_count; i++) {
-        const int *pixels = state->windows[i].pixels;
-        struct pel_wall_part part =
-            pel_wall_fit(&state->options->scene->wall, i, state->wall_px, pixels);
-        state->views[i] = (struct pel_screen_view){
-            .window = i,
-            .place = {0, 0, pixels[0], pixels[1]},
-            .whole = {part.whole[0], part.whole[1]},
-            .offset = {part.region[0], part.region[1]},
+static int most(int a, int b) {
+    return a > b ? a : b;
+}
+
+static int least(int a, int b) {
+    return a < b ? a : b;
+}
+
+// Adds the part of one of four pictures that a window of a wall shows, if there is one.
+static void add_part(struct pel_state *state, int window, int slot, bool slices) {
+    const struct pel_wall_part *part = &state->windows[window].part;
+    const struct pel_rectangle wall = {0, 0, part->whole[0], part->whole[1]};
+    struct pel_rectangle places[4] = {wall};
+    if (slices && !cut_in_four(&wall, places))
+        return;
+    const struct pel_rectangle *of = &places[slot];
+    const int *region = part->region;
+    int left = most(of->x, region[0]), right = least(of->x + of->width, region[0] + region[2]);
+    int top = most(of->y, region[1]), bottom = least(of->y + of->height, region[1] + region[3]);
+    if (right > left && bottom > top)
+        state->views[state->view_count++] = (struct pel_screen_view){
+            .window = window,
+            .slot = slot,
+            .place = {left - region[0], top - region[1], right - left, bottom - top},
+            .whole = {of->width, of->height},
+            .offset = {left - of->x, top - of->y},
             .part = {0, 0, 1, 1},
         };
+}
+
+static void add_parts(struct pel_state *state, bool slices) {
+    state->view_count = 0;
+    for (int slot = 0; slot < (slices ? 4 : 1); slot++) {
+        for (int i = 0; i < state->window_count; i++)
+            add_part(state, i, slot, slices);
+        if (slot == 0)
+            state->picture_count = state->view_count;
     }
+}
+
+// All windows show parts of one picture, or of one with slices beside it. There is always a
+// picture, which a wall that does not cover its lower right would otherwise not show.
+static void lay_out_wall(struct pel_state *state) {
+    for (int i = 0; i < state->window_count; i++)
+        state->windows[i].part =
+            pel_wall_fit(&state->options->scene->wall, i, state->wall_px, state->windows[i].pixels);
+    add_parts(state, state->compare.mode == PEL_COMPARE_SLICES);
+    if (state->picture_count == 0)
+        add_parts(state, false);
 }
 
 static void lay_out_single(struct pel_state *state) {
     const int *pixels = state->windows[0].pixels;
     int left = pel_panels_width(state);
+    const struct pel_rectangle whole = {left, 0, pixels[0] - left, pixels[1]};
+    struct pel_rectangle places[4];
     state->view_count = state->picture_count = 1;
-    state->views[0] = make_view((struct pel_rectangle){left, 0, pixels[0] - left, pixels[1]});
-    if (state->compare.mode == PEL_COMPARE_SLICES)
-        make_room_for_slices(state);
+    state->views[0] = make_view(whole);
+    if (state->compare.mode != PEL_COMPARE_SLICES || !cut_in_four(&whole, places))
+        return;
+    for (int i = 0; i < 4; i++) {
+        state->views[i] = make_view(places[i]);
+        state->views[i].slot = i;
+    }
+    state->view_count = 4;
 }
 
 bool pel_screen_layout(struct pel_state *state) {
-    struct pel_screen_view views[PEL_WALL_MAX];
+    struct pel_screen_view views[PEL_SCREEN_VIEWS];
     memcpy(views, state->views, sizeof views);
     int view_count = state->view_count;
     for (int i = 0; i < state->window_count; i++) {
         struct pel_pane_window *window = &state->windows[i];
-        pel_window_pixels(window->window, window->pixels, &window->scale);
+        int pixels[2];
+        pel_window_pixels(window->window, pixels, &window->scale);
+        // A window that is minimised has none.
+        if (pixels[0] > 0 && pixels[1] > 0)
+            memcpy(window->pixels, pixels, sizeof pixels);
     }
     if (state->wall_px[0] > 0)
         lay_out_wall(state);
     else
         lay_out_single(state);
-    // A window that is minimised has no pixels.
+    // The panels may take all of a window.
     for (int i = 0; i < state->view_count; i++)
         if (state->views[i].place.width < 1 || state->views[i].place.height < 1)
             state->views[i] = views[i];
     bool moved = view_count != state->view_count;
     for (int i = 0; i < state->view_count; i++) {
         const struct pel_screen_view *now = &state->views[i], *before = &views[i];
-        moved = moved || memcmp(&now->place, &before->place, sizeof now->place) != 0 ||
+        moved = moved || now->window != before->window || now->slot != before->slot ||
+                memcmp(&now->place, &before->place, sizeof now->place) != 0 ||
                 memcmp(now->whole, before->whole, sizeof now->whole) != 0 ||
                 memcmp(now->offset, before->offset, sizeof now->offset) != 0;
     }
+    state->slices_old = state->slices_old || moved;
     return moved;
 }
 
@@ -251,24 +321,25 @@ void pel_screen_fit_scene(const struct pel_state *state, int view, struct pel_sc
 
 const char *pel_screen_device(const struct pel_state *state, int number,
                               const struct pel_scene *scene) {
-    int view = number % state->picture_count;
-    return view < scene->wall.region_count ? scene->wall.regions[view].device : "";
+    int region = state->views[number % state->picture_count].window;
+    return region < scene->wall.region_count ? scene->wall.regions[region].device : "";
 }
 
 // ---- Drawing -----------------------------------------------------------------------------------
-
-// Where the window keeps the view's pixels.
-static int slot_of(const struct pel_state *state, int view) {
-    return state->wall_px[0] > 0 ? 0 : view;
-}
 
 void pel_screen_upload(struct pel_state *state, int view, const struct pel_pixels *pixels) {
     struct pel_screen_view *shown = &state->views[view];
     const struct pel_pane_window *window = &state->windows[shown->window];
     memcpy(shown->part, pixels->part, sizeof shown->part);
     pel_window_draw_on(window->window);
-    pel_present_upload(window->present, slot_of(state, view), pixels->width, pixels->height,
-                       pixels->rgba);
+    int slot = shown->slot;
+    if (pixels->rgba) {
+        pel_present_upload(window->present, slot, pixels->width, pixels->height, pixels->rgba);
+    } else if (pixels->loan) {
+        pel_present_take(window->present, slot, pixels->width, pixels->height,
+                         pel_loan_name(pixels->loan));
+        pel_loan_read(pixels->loan);
+    }
 }
 
 // Draws one window into whatever drawing goes to; `seconds` after the last time.
@@ -278,7 +349,7 @@ static void draw_window(struct pel_state *state, int number, double seconds) {
     for (int i = 0; i < state->view_count; i++) {
         const struct pel_screen_view *view = &state->views[i];
         if (view->window == number)
-            pel_present_draw(window->present, slot_of(state, i), view->part, &view->place);
+            pel_present_draw(window->present, view->slot, view->part, &view->place);
     }
     if (state->with_panels)
         pel_panels_draw(state, number, seconds);
@@ -307,7 +378,8 @@ static void copy_pixels(struct pel_image *image, const int at[2], const int size
 }
 
 bool pel_screen_save(struct pel_state *state, const char *path) {
-    const int *size = state->wall_px[0] > 0 ? state->views[0].whole : state->windows[0].pixels;
+    const int *size =
+        state->wall_px[0] > 0 ? state->windows[0].part.whole : state->windows[0].pixels;
     struct pel_image *image = pel_image_create(size[0], size[1]);
     if (!image)
         return false;
@@ -321,8 +393,7 @@ bool pel_screen_save(struct pel_state *state, const char *path) {
         draw_window(state, i, 0);
         uint8_t *rgb = pel_present_caught(window->present);
         if (rgb)
-            copy_pixels(image, state->wall_px[0] > 0 ? state->views[i].offset : (int[]){0, 0},
-                        window->pixels, rgb);
+            copy_pixels(image, window->part.region, window->pixels, rgb);
         free(rgb);
     }
     bool good = pel_image_save(image, path, NULL);

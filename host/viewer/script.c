@@ -5,6 +5,7 @@
 // only a matter of waiting.
 #include "viewer/script.h"
 
+#include <errno.h>
 #include <jansson.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -341,7 +342,9 @@ struct pel_script *pel_script_load(const char *path, char *sentence, size_t byte
     char reason[256] = "";
     struct reader reader = {script, 0, reason, sizeof reason};
     bool good = script != NULL;
-    if (!root)
+    if (!root && error.line < 1)
+        snprintf(reason, sizeof reason, "%s", strerror(errno));
+    else if (!root)
         snprintf(reason, sizeof reason, "line %d: %s", error.line, error.text);
     else if (!json_is_array(steps))
         snprintf(reason, sizeof reason, "a script is {\"steps\": [...]}");

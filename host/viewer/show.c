@@ -1,7 +1,7 @@
 // show.c - what pictures become on their way to the windows.
 //
 // A comparison is made of two pictures that are kept, so that the line of a split and a flicker
-// need no rendering. View 0 is the picture; 1 to 3 are slices, which the host renders.
+// need no rendering. Slices are rendered by the host; their views follow those of the picture.
 #include "viewer/show.h"
 
 #include <math.h>
@@ -88,6 +88,10 @@ void pel_show_take(struct pel_state *state, struct pel_picture *picture) {
     show_kept(state);
 }
 
+const char *pel_show_presented(const struct pel_state *state) {
+    return state->lender ? state->shown.statistics.gl_reason : state->unshared;
+}
+
 void pel_show_finish(struct pel_state *state) {
     pel_picture_destroy(state->kept);
     state->kept = NULL;
@@ -95,31 +99,31 @@ void pel_show_finish(struct pel_state *state) {
 
 // ---- Slices ------------------------------------------------------------------------------------
 
-bool pel_show_can(const struct pel_state *state, enum pel_compare_mode mode) {
-    return mode != PEL_COMPARE_SLICES || state->wall_px[0] == 0;
-}
-
 bool pel_show_slice(const struct pel_state *state, int view, struct pel_slice *slice) {
+    const struct pel_screen_view *shown = &state->views[view];
     struct pel_bounds bounds;
-    if (state->compare.mode != PEL_COMPARE_SLICES || view < 1 || view > 3 ||
+    if (view < state->picture_count || view >= state->view_count ||
         !pel_scene_bounds(state->scene, &bounds))
         return false;
-    *slice = (struct pel_slice){.plane = (enum pel_slice_plane)(view - 1),
-                                .width = state->views[view].place.width,
-                                .height = state->views[view].place.height,
-                                .windowed = state->slices_windowed};
+    *slice = (struct pel_slice){
+        .plane = (enum pel_slice_plane)(shown->slot - 1),
+        .width = shown->whole[0],
+        .height = shown->whole[1],
+        .part = {shown->offset[0], shown->offset[1], shown->place.width, shown->place.height},
+        .windowed = state->slices_windowed};
     memcpy(slice->cross, state->cross, sizeof slice->cross);
     pel_slice_fit(slice, &bounds);
-    return slice->width > 0 && slice->height > 0;
+    return shown->place.width > 0 && shown->place.height > 0;
 }
 
 static void show_slices(struct pel_state *state) {
-    for (int view = 1; view <= 3; view++) {
+    for (int view = state->picture_count; view < state->view_count; view++) {
         struct pel_slice slice;
         if (!pel_show_slice(state, view, &slice))
             continue;
-        struct pel_pixels pixels = {slice.width, slice.height, NULL, {0, 0, 1, 1}};
-        pixels.rgba = malloc((size_t)slice.width * (size_t)slice.height * 4);
+        struct pel_pixels pixels = {
+            .width = slice.part[2], .height = slice.part[3], .part = {0, 0, 1, 1}};
+        pixels.rgba = malloc((size_t)pixels.width * (size_t)pixels.height * 4);
         if (!pixels.rgba)
             return;
         pel_slice_render(&slice, state->scene, -1, pixels.rgba);

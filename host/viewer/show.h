@@ -10,6 +10,10 @@
 int pel_show_scene_count(const struct pel_state *state);
 struct pel_scene *pel_show_scene(const struct pel_state *state, int number);
 
+// Why the newest picture's pixels came through the host's memory; "" when they came through a
+// buffer that OpenCL shares with OpenGL.
+const char *pel_show_presented(const struct pel_state *state);
+
 // Takes a picture of all of them over, and hands what is shown to the windows.
 void pel_show_take(struct pel_state *state, struct pel_picture *picture);
 
@@ -17,13 +21,10 @@ void pel_show_take(struct pel_state *state, struct pel_picture *picture);
 void pel_show_update(struct pel_state *state);
 void pel_show_finish(struct pel_state *state);
 
-// Whether there is room for a way to compare: a wall has none for slices beside the picture.
-bool pel_show_can(const struct pel_state *state, enum pel_compare_mode mode);
-
 // Another way to compare, or other volumes.
 void pel_show_set_mode(struct pel_state *state, enum pel_compare_mode mode);
 
-// The slice that a view shows; false for the picture itself.
+// The slice that a view shows, or a part of; false for the picture itself.
 bool pel_show_slice(const struct pel_state *state, int view, struct pel_slice *slice);
 
 #endif

@@ -100,8 +100,11 @@ void pel_slice_render(const struct pel_slice *slice, const struct pel_scene *sce
         bool shown = instance < 0 ? !scene->instances[i].hidden : i == instance;
         count += shown && pel_sampler_make(&samplers[count], scene, i);
     }
-    for (int y = 0; y < slice->height; y++) {
-        for (int x = 0; x < slice->width; x++, rgba += 4) {
+    const int *part = slice->part;
+    int right = part[2] > 0 ? part[0] + part[2] : slice->width;
+    int bottom = part[3] > 0 ? part[1] + part[3] : slice->height;
+    for (int y = part[1]; y < bottom; y++) {
+        for (int x = part[0]; x < right; x++, rgba += 4) {
             double world[3];
             pel_slice_world(slice, (double[]){x + 0.5, y + 0.5}, world);
             struct light light = look(samplers, count, world, slice->windowed);

@@ -16,6 +16,7 @@ struct pel_slice {
     double middle[3]; // what is in the middle of the picture; its depth does not matter
     double mm_per_px;
     int width, height;
+    int part[4];   // left and top edge, width and height of what is rendered; all zero: everything
     bool windowed; // values as grey, from the first to the last point of the transfer function,
                    // instead of its colours and opacity
 };

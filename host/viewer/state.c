@@ -64,14 +64,21 @@ bool pel_state_clip_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo
                           70 * state->windows[0].scale);
 }
 
+int pel_state_picture_in(const struct pel_state *state, int window) {
+    for (int i = 0; i < state->picture_count; i++)
+        if (state->views[i].window == window)
+            return i;
+    return -1;
+}
+
 int pel_state_cube(const struct pel_state *state, struct pel_cube_face faces[3]) {
-    int window = state->window_count - 1;
-    const struct pel_rectangle *place = &state->views[window].place;
+    int last = state->picture_count - 1;
+    const struct pel_rectangle *place = &state->views[last].place;
     double edge_px = 44 * state->windows[0].scale;
     const double centre[2] = {place->x + place->width - 1.1 * edge_px,
                               place->y + place->height - 1.1 * edge_px};
     struct pel_view view;
-    if (!state->readouts || !state->with_panels || !pel_state_view(state, window, &view))
+    if (!state->readouts || !state->with_panels || !pel_state_view(state, last, &view))
         return 0;
     return pel_orientation_cube(faces, &view, centre, edge_px);
 }

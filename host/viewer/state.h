@@ -14,6 +14,7 @@
 #include "viewer/present.h"
 #include "viewer/slice.h"
 #include "viewer/viewer.h"
+#include "viewer/wall.h"
 #include "viewer/window.h"
 #include "viewer/worker.h"
 
@@ -24,12 +25,17 @@ struct pel_pane_window {
     struct pel_window *window;
     struct pel_present *present;
     int pixels[2];
-    double scale; // how much larger than usual letters are
+    double scale;              // how much larger than usual letters are
+    struct pel_wall_part part; // of a wall, what it shows
 };
+
+// Of each window the picture and the three planes.
+enum { PEL_SCREEN_VIEWS = 4 * PEL_WALL_MAX };
 
 // One picture in a window, or the part of one that a window of a wall shows.
 struct pel_screen_view {
     int window;
+    int slot; // 0: the picture; 1 and more: slice slot - 1
     struct pel_rectangle place;
     int whole[2];   // pixels of the picture
     int offset[2];  // where in it the window's part begins; 0 without a wall
@@ -84,6 +90,9 @@ struct pel_state {
     struct pel_pane_window windows[PEL_WALL_MAX];
     int window_count;
     struct pel_worker *worker;
+    bool sharing;                       // windows share their OpenGL objects
+    struct pel_lender *lender;          // of buffers that the worker shares with OpenGL, or NULL
+    char unshared[PEL_GL_REASON_BYTES]; // why there is none
 
     struct pel_film film; // the scene's animation
 
@@ -107,7 +116,7 @@ struct pel_state {
     double plot_low, plot_high;      // the values it shows
 
     // What is shown, and whether it is what should be.
-    struct pel_screen_view views[PEL_WALL_MAX];
+    struct pel_screen_view views[PEL_SCREEN_VIEWS];
     int view_count;
     int picture_count;        // of the views, those that the worker renders; slices follow them
     int wall_px[2];           // of the whole wall as it was opened; 0 without one
@@ -124,6 +133,7 @@ struct pel_state {
     bool panels, readouts, help; // whether they are shown
     double drawn_ms;             // when the windows were drawn last
     int shown_count;             // pictures so far
+    int shared_count;            // and those of them that came through shared buffers
     bool redraw;                 // the windows must be drawn again
 
     char message[PEL_STATE_SENTENCE]; // to the user
@@ -160,7 +170,11 @@ bool pel_state_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo);
 // The gizmo of the clip whose handles are shown; false when there is none.
 bool pel_state_clip_gizmo(const struct pel_state *state, struct pel_gizmo *gizmo);
 
-// The faces of the orientation cube in the last window, in its pixels; 0 when it is not shown.
+// The view of the picture in a window; -1 when that shows slices only.
+int pel_state_picture_in(const struct pel_state *state, int window);
+
+// The faces of the orientation cube in the last window with a part of the picture, in its pixels; 0
+// when it is not shown.
 int pel_state_cube(const struct pel_state *state, struct pel_cube_face faces[3]);
 
 // Width over height of the picture that the camera is for.

@@ -41,9 +41,11 @@ static double target_ms(const struct pel_state *state) {
 
 // Gives the worker the scene as it is now, once for each view.
 static void send(struct pel_state *state, bool moving) {
-    struct pel_request request = {
-        .id = state->version, .moving = moving, .target_ms = target_ms(state)};
     int count = pel_show_scene_count(state);
+    struct pel_request request = {.id = state->version,
+                                  .moving = moving,
+                                  .compared = count > state->picture_count,
+                                  .target_ms = target_ms(state)};
     for (int i = 0; i < count; i++) {
         request.scenes[i] = pel_show_scene(state, i);
         if (!request.scenes[i]) {
@@ -77,6 +79,7 @@ static void take_picture(struct pel_state *state) {
     state->shown = *picture;
     pel_show_take(state, picture);
     state->shown_count++;
+    state->shared_count += pel_show_presented(state)[0] == '\0';
     state->redraw = true;
 }
 
@@ -252,6 +255,11 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
     }
     if (state->latency)
         pel_latency_report(state->latency, state, state->options->latency);
+    struct pel_viewer_report *report = state->options->report;
+    if (report) {
+        *report = (struct pel_viewer_report){state->shown_count, state->shared_count, ""};
+        snprintf(report->reason, sizeof report->reason, "%s", pel_show_presented(state));
+    }
     const char *path = state->options->screenshot;
     if (path && !pel_screen_save(state, path))
         return fail(sentence, bytes, pel_error_code(), pel_error_message());
@@ -284,7 +292,7 @@ static enum pel_error start(struct pel_state *state, char *sentence, size_t byte
         if (!state->script)
             return PEL_ERROR_FORMAT;
     }
-    state->worker = pel_worker_create(&state->options->renderer, pel_window_wake);
+    state->worker = pel_worker_create(&state->options->renderer, state->lender, pel_window_wake);
     if (!state->worker)
         return fail(sentence, bytes, PEL_ERROR_MEMORY, "cannot start the rendering thread");
     if (state->options->latency)

@@ -13,6 +13,12 @@ struct pel_viewer_latency {
     double median_ms, worst_ms;
 };
 
+// How pictures came into the windows.
+struct pel_viewer_report {
+    int pictures, shared;             // how many, and those through buffers that OpenCL shares
+    char reason[PEL_GL_REASON_BYTES]; // why the last one did not come through these; or ""
+};
+
 struct pel_viewer_options {
     struct pel_scene *scene; // borrowed; the viewer works on a copy
     const char *scene_path;  // where the scene came from and is saved to; NULL = from volumes
@@ -24,6 +30,7 @@ struct pel_viewer_options {
     const char *screenshot; // the window's picture goes there at the end; NULL = nowhere
     int frames;             // ends after so many pictures were shown; 0 = does not
     struct pel_viewer_latency *latency; // measured, and then the end; NULL = is not
+    struct pel_viewer_report *report;   // filled at the end; or NULL
     double rate;                        // pictures per second to hold while things move; 0 = 30
 };
 

@@ -235,7 +235,8 @@ bool pel_widget_check(const char *label, bool *value) {
 
 bool pel_widget_choose(const char *label, const char *const *names, int *index) {
     bool changed = false;
-    if (!ImGui::BeginCombo(label, names[*index], ImGuiComboFlags_HeightLarge))
+    if (!ImGui::BeginCombo(label, *index < 0 ? "choose" : names[*index],
+                           ImGuiComboFlags_HeightLarge))
         return false;
     for (int i = 0; names[i]; i++) {
         if (ImGui::Selectable(names[i], i == *index)) {

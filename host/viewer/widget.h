@@ -52,8 +52,9 @@ void pel_widget_hint(const char *text); // of the widget before, when the pointe
 bool pel_widget_button(const char *label);
 bool pel_widget_button_if(bool enabled, const char *label);
 bool pel_widget_check(const char *label, bool *value);
-bool pel_widget_choose(const char *label, const char *const *names, int *index); // ends with NULL
-bool pel_widget_select(const char *label, bool selected, double width);          // a line of a list
+// One of the names, which end with NULL; -1 when it is none of them.
+bool pel_widget_choose(const char *label, const char *const *names, int *index);
+bool pel_widget_select(const char *label, bool selected, double width); // a line of a list
 bool pel_widget_edit(const char *label, char *text, int bytes);
 bool pel_widget_colour(const char *label, double rgb[3]);
 bool pel_widget_slide(const char *label, double *value, double low, double high,

@@ -4,6 +4,7 @@
 // OpenGL's own header is epoxy's, in present.c.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -176,6 +177,37 @@ static GLFWmonitor *find_monitor(int number) {
     return number >= 1 && number <= count ? monitors[number - 1] : NULL;
 }
 
+// Where a window of this size goes on a monitor: into its middle, and not beyond its edges.
+static void place_on(GLFWmonitor *monitor, int place[4]) {
+    int area[4];
+    glfwGetMonitorWorkarea(monitor, &area[0], &area[1], &area[2], &area[3]);
+    for (int axis = 0; axis < 2; axis++) {
+        if (place[2 + axis] > area[2 + axis])
+            place[2 + axis] = area[2 + axis];
+        place[axis] = area[axis] + (area[2 + axis] - place[2 + axis]) / 2;
+    }
+}
+
+// The monitor keeps its mode. Window managers take the monitor that a window is on, so it has to be
+// there already.
+static void fill_monitor(GLFWwindow *handle, GLFWmonitor *monitor) {
+    const GLFWvidmode *mode = glfwGetVideoMode(monitor);
+    glfwSetWindowMonitor(handle, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+// Lets the desktop do it, which answers when it likes, so that the first picture has the right
+// size.
+static void wait_for_size(GLFWwindow *handle, GLFWmonitor *monitor) {
+    const GLFWvidmode *mode = glfwGetVideoMode(monitor);
+    int width = 0, height = 0;
+    for (int i = 0; i < 50; i++) {
+        glfwGetWindowSize(handle, &width, &height);
+        if (width == mode->width && height == mode->height)
+            return;
+        glfwWaitEventsTimeout(0.01);
+    }
+}
+
 static void listen(GLFWwindow *handle) {
     glfwSetCursorPosCallback(handle, on_pointer);
     glfwSetMouseButtonCallback(handle, on_button);
@@ -186,6 +218,15 @@ static void listen(GLFWwindow *handle) {
     glfwSetFramebufferSizeCallback(handle, on_size);
     glfwSetWindowRefreshCallback(handle, on_refresh);
     glfwSetWindowCloseCallback(handle, on_close);
+}
+
+// What is asked of every context.
+static void hint(void) {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
 }
 
 struct pel_window *pel_window_create(const struct pel_window_options *options,
@@ -199,31 +240,52 @@ struct pel_window *pel_window_create(const struct pel_window_options *options,
     window->number = options->number;
     memcpy(window->place, options->place, sizeof window->place);
     GLFWmonitor *monitor = find_monitor(options->monitor);
-    int width = options->place[2], height = options->place[3];
-    if (monitor) {
-        const GLFWvidmode *mode = glfwGetVideoMode(monitor);
-        width = mode->width, height = mode->height;
-    }
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-    glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+    bool placed = options->placed || monitor;
+    if (monitor)
+        place_on(monitor, window->place);
+    hint();
+    // The picture stays where it is while the hand is on another monitor, or in another window of a
+    // wall.
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
     glfwWindowHint(GLFW_DECORATED, !options->unadorned);
-    glfwWindowHint(GLFW_VISIBLE, monitor || !options->placed);
-    window->handle = glfwCreateWindow(width, height, options->title, monitor, NULL);
+    glfwWindowHint(GLFW_VISIBLE, !placed);
+    window->handle = glfwCreateWindow(window->place[2], window->place[3], options->title, NULL,
+                                      options->shares ? options->shares->handle : NULL);
     if (!window->handle) {
         fail(sentence, bytes, "no window with OpenGL 3.3 can be opened");
         free(window);
         return NULL;
     }
-    if (!monitor && options->placed) {
-        glfwSetWindowPos(window->handle, options->place[0], options->place[1]);
+    if (placed) {
+        glfwSetWindowPos(window->handle, window->place[0], window->place[1]);
         glfwShowWindow(window->handle);
     }
     glfwSetWindowUserPointer(window->handle, window);
     listen(window->handle);
+    if (monitor) {
+        fill_monitor(window->handle, monitor);
+        wait_for_size(window->handle, monitor);
+    }
     glfwMakeContextCurrent(window->handle);
     glfwSwapInterval(options->follows ? 0 : 1);
+    return window;
+}
+
+struct pel_window *pel_window_create_unseen(struct pel_window *other, char *sentence,
+                                            size_t bytes) {
+    struct pel_window *window = calloc(1, sizeof *window);
+    if (!window) {
+        snprintf(sentence, bytes, "cannot allocate a window");
+        return NULL;
+    }
+    hint();
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    window->handle = glfwCreateWindow(1, 1, "Pellucid", NULL, other->handle);
+    if (!window->handle) {
+        fail(sentence, bytes, "OpenGL shares no objects");
+        free(window);
+        return NULL;
+    }
     return window;
 }
 
@@ -253,7 +315,31 @@ void pel_window_pixels(struct pel_window *window, int pixels[2], double *scale) 
 }
 
 void pel_window_draw_on(struct pel_window *window) {
-    glfwMakeContextCurrent(window->handle);
+    glfwMakeContextCurrent(window ? window->handle : NULL);
+}
+
+// GLFW's own functions for this exist only where it was built for X. So the platform's library is
+// asked, if GLFW has loaded it; its own way to find functions makes some up.
+void pel_window_tell_context(struct pel_gl *gl) {
+    static const struct {
+        enum pel_gl_platform platform;
+        const char *library, *context, *display;
+    } platforms[] = {
+        {PEL_GL_GLX, "libGLX.so.0", "glXGetCurrentContext", "glXGetCurrentDisplay"},
+        {PEL_GL_GLX, "libGL.so.1", "glXGetCurrentContext", "glXGetCurrentDisplay"},
+        {PEL_GL_EGL, "libEGL.so.1", "eglGetCurrentContext", "eglGetCurrentDisplay"},
+    };
+    *gl = (struct pel_gl){0};
+    for (size_t i = 0; i < sizeof platforms / sizeof *platforms && !gl->context; i++) {
+        void *library = dlopen(platforms[i].library, RTLD_LAZY | RTLD_NOLOAD);
+        if (!library)
+            continue;
+        void *(*context)(void) = (void *(*)(void))dlsym(library, platforms[i].context);
+        void *(*display)(void) = (void *(*)(void))dlsym(library, platforms[i].display);
+        if (context && display && context())
+            *gl = (struct pel_gl){platforms[i].platform, context(), display()};
+        dlclose(library);
+    }
 }
 
 void pel_window_show(struct pel_window *window) {
@@ -301,8 +387,7 @@ void pel_window_toggle_full_screen(struct pel_window *window) {
         return;
     glfwGetWindowPos(handle, &place[0], &place[1]);
     glfwGetWindowSize(handle, &place[2], &place[3]);
-    const GLFWvidmode *mode = glfwGetVideoMode(monitor);
-    glfwSetWindowMonitor(handle, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    fill_monitor(handle, monitor);
 }
 
 void pel_window_name(struct pel_window *window, const char *title) {

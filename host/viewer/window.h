@@ -1,11 +1,12 @@
 // window.h - windows on a screen, through GLFW: the only file that knows it.
 //
-// Everything here is for the main thread, but pel_window_wake.
+// Everything here is for the main thread, but where it says otherwise.
 #ifndef PEL_VIEWER_WINDOW_H
 #define PEL_VIEWER_WINDOW_H
 
 #include <stddef.h>
 
+#include "pellucid.h"
 #include "viewer/event.h"
 
 struct pel_window;
@@ -18,6 +19,7 @@ struct pel_window_options {
     int monitor;    // full screen on this one, counted from 1; 0 = in a window
     bool unadorned; // without frame and title, for walls
     bool follows;   // does not wait for the screen: another window of the same picture does
+    struct pel_window *shares; // has the same objects of OpenGL, but for what holds others; or NULL
 };
 
 // Begins and ends the use of windows. False, with the reason in `sentence`, when there is no
@@ -31,6 +33,10 @@ struct pel_window *pel_window_create(const struct pel_window_options *options,
                                      struct pel_event_queue *queue, char *sentence, size_t bytes);
 void pel_window_destroy(struct pel_window *window);
 
+// A window that is never seen, for another thread's OpenGL, which shares objects with `other`. What
+// was current stays so. NULL, with the reason in `sentence`.
+struct pel_window *pel_window_create_unseen(struct pel_window *other, char *sentence, size_t bytes);
+
 // Waits for events, `seconds` at most, and puts them into the queues.
 void pel_window_wait(double seconds);
 
@@ -41,8 +47,12 @@ void pel_window_wake(void);
 // than usual things should be drawn.
 void pel_window_pixels(struct pel_window *window, int pixels[2], double *scale);
 
-// OpenGL commands are for this window from now on.
+// OpenGL commands of this thread are for this window from now on, or NULL: for none. A window is
+// drawn on by one thread at a time.
 void pel_window_draw_on(struct pel_window *window);
+
+// The handles of what this thread's OpenGL commands are for; any thread.
+void pel_window_tell_context(struct pel_gl *gl);
 
 // Shows what was drawn.
 void pel_window_show(struct pel_window *window);

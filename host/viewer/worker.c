@@ -217,6 +217,7 @@ static void save_one(struct pel_worker *worker) {
 
 static void *run(void *user) {
     struct pel_worker *worker = user;
+    pel_crew_enter(worker->crew);
     pthread_mutex_lock(&worker->mutex);
     while (!worker->quit) {
         worker->busy = true;
@@ -243,6 +244,7 @@ static void *run(void *user) {
             pel_request_finish(&request);
     }
     pthread_mutex_unlock(&worker->mutex);
+    pel_crew_destroy(worker->crew);
     return NULL;
 }
 
@@ -297,12 +299,12 @@ bool pel_worker_save(struct pel_worker *worker, struct pel_scene *scene, const c
 }
 
 struct pel_worker *pel_worker_create(const struct pel_renderer_options *options,
-                                     void (*wake)(void)) {
+                                     struct pel_lender *lender, void (*wake)(void)) {
     struct pel_worker *worker = calloc(1, sizeof *worker);
     if (!worker)
         return NULL;
     worker->wake = wake;
-    worker->crew = pel_crew_create(options);
+    worker->crew = pel_crew_create(options, lender);
     if (!worker->crew) {
         free(worker);
         return NULL;
@@ -337,6 +339,5 @@ void pel_worker_destroy(struct pel_worker *worker) {
     pel_picture_destroy(worker->ready);
     pthread_cond_destroy(&worker->changed);
     pthread_mutex_destroy(&worker->mutex);
-    pel_crew_destroy(worker->crew);
     free(worker);
 }

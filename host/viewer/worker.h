@@ -24,9 +24,10 @@ struct pel_worker_status {
 };
 
 // Starts the thread, which opens the device by itself: that it cannot is a sentence in the status.
-// `wake` is called from the thread whenever there is something new. NULL when no thread can be had.
+// `wake` is called from the thread whenever there is something new. Where devices can, pictures are
+// left in what `lender` lends, which may be NULL. NULL when no thread can be had.
 struct pel_worker *pel_worker_create(const struct pel_renderer_options *options,
-                                     void (*wake)(void));
+                                     struct pel_lender *lender, void (*wake)(void));
 void pel_worker_destroy(struct pel_worker *worker);
 
 // Takes the request's scenes.

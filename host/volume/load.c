@@ -15,6 +15,7 @@
 #include "base/file.h"
 #include "base/locale.h"
 #include "base/math.h"
+#include "volume/label_map.h"
 #include "volume/source.h"
 
 typedef struct pel_volume *load_function(const char *path, const struct pel_load_options *options);
@@ -210,6 +211,20 @@ static bool check_volume(const struct pel_volume *volume) {
     return true;
 }
 
+// Colours are no labels, whoever says so.
+static void settle_labels(struct pel_volume *volume, const char *path,
+                          const struct pel_load_options *options) {
+    bool colour = volume->type == PEL_VOXEL_RGB8 || volume->type == PEL_VOXEL_RGBA8;
+    if (colour && options->labels == PEL_LABELS_YES)
+        pel_warn("%s: its voxels are colours, not labels", volume->name);
+    else if (options->labels == PEL_LABELS_YES)
+        volume->labels = true;
+    else if (options->labels == PEL_LABELS_NO)
+        volume->labels = false;
+    else if (!volume->labels && pel_path_names_labels(path))
+        volume->labels = pel_volume_seems_labels(volume);
+}
+
 struct pel_volume *pel_volume_load(const char *path, const struct pel_load_options *options) {
     static const struct pel_load_options defaults;
     if (!options)
@@ -223,6 +238,8 @@ struct pel_volume *pel_volume_load(const char *path, const struct pel_load_optio
         pel_volume_destroy(volume);
         volume = NULL;
     }
+    if (volume)
+        settle_labels(volume, path, options);
     // What base/file.h says about a file begins with its path already.
     if (!volume && strncmp(pel_error_message(), path, strlen(path)) != 0)
         pel_fail_in("%s", path);

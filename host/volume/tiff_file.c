@@ -53,9 +53,14 @@ TIFF *pel_tiff_handle(const char *path, const char *mode, size_t limit,
     TIFFOpenOptionsSetWarningHandlerExtR(options, on_warning, reports);
     TIFF *handle = TIFFOpenExt(path, mode, options);
     TIFFOpenOptionsFree(options);
-    if (!handle)
+    if (!handle) {
+        // Some of libtiff's sentences begin with the file's name, which callers add anyhow.
+        const char *reason = reports->error[0] ? reports->error : "no directory";
+        size_t named = strlen(path);
+        bool again = strncmp(reason, path, named) == 0 && strncmp(reason + named, ": ", 2) == 0;
         pel_fail(PEL_ERROR_FORMAT, "not a readable TIFF file: %s",
-                 reports->error[0] ? reports->error : "no directory");
+                 again ? reason + named + 2 : reason);
+    }
     return handle;
 }
 

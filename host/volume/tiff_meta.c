@@ -201,9 +201,10 @@ static bool choose(const struct pel_load_options *options, const char *name, int
         return pel_fail(PEL_ERROR_ARGUMENT, "no time step %d, the file has %d", options->time,
                         times);
     if (channels > 1 && options->channel == 0 && !options->split_channels)
-        pel_warn("%s: %d channels, only the first is read", name, channels);
+        pel_warn("%s: %d channels, only the first is read; 'channel' chooses another", name,
+                 channels);
     if (times > 1 && options->time == 0)
-        pel_warn("%s: %d time steps, only the first is read", name, times);
+        pel_warn("%s: %d time steps, only the first is read; 'time' chooses another", name, times);
     return true;
 }
 

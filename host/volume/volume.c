@@ -38,7 +38,10 @@ bool pel_voxel_type_from_name(const char *name, enum pel_voxel_type *type) {
             return true;
         }
     }
-    return pel_fail(PEL_ERROR_ARGUMENT, "no voxel type '%s'", name);
+    return pel_fail(PEL_ERROR_ARGUMENT,
+                    "no voxel type '%.32s'; there are uint8, int8, uint16, int16, float32, rgb8 "
+                    "and rgba8",
+                    name);
 }
 
 bool pel_volume_check_size(const int64_t dims[3], enum pel_voxel_type type, size_t available_bytes,

@@ -177,7 +177,8 @@ bool pel_select_channel(struct pel_selection *selection, const char *name, int64
         return pel_fail(PEL_ERROR_ARGUMENT, "no channel %d, the file has %lld", options->channel,
                         (long long)channels);
     if (channels > 1 && options->channel == 0 && !options->split_channels)
-        pel_warn("%s: %lld channels, only the first is read", name, (long long)channels);
+        pel_warn("%s: %lld channels, only the first is read; 'channel' chooses another", name,
+                 (long long)channels);
     selection->first += (size_t)options->channel * stride;
     return true;
 }
@@ -188,7 +189,8 @@ bool pel_select_time(struct pel_selection *selection, const char *name, int64_t 
         return pel_fail(PEL_ERROR_ARGUMENT, "no time step %d, the file has %lld", options->time,
                         (long long)steps);
     if (steps > 1 && options->time == 0)
-        pel_warn("%s: %lld time steps, only the first is read", name, (long long)steps);
+        pel_warn("%s: %lld time steps, only the first is read; 'time' chooses another", name,
+                 (long long)steps);
     selection->first += (size_t)options->time * stride;
     return true;
 }

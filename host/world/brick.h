@@ -13,10 +13,18 @@ size_t pel_brick_count(size_t voxels);
 // twos.
 size_t pel_brick_element_bytes(size_t voxel_bytes);
 
+// Where the voxels of a layer of bricks come from: `slices` of dims[0] x dims[1] voxels of
+// `voxel_bytes` each, dims[2] of them. `first` is the layer's first; with a border there is one
+// before it, unless it is the volume's. From it on there are BRICK_SIDE + 1 + border, or all that
+// are left.
+struct pel_brick_source {
+    const void *slices;
+    size_t dims[3], first, voxel_bytes;
+    int border; // 0 or 1
+};
+
 // Writes one layer of bricks to `out`: pel_brick_count(dims[0]) * pel_brick_count(dims[1]) of
-// BRICK_VOXELS elements. `slices` are the first BRICK_SIDE + 1 slices of the layer, dims[0] x
-// dims[1] voxels of `voxel_bytes` each, or dims[2] of them where there are fewer. Beyond the last
-// voxel bricks repeat it.
-void pel_brick_layer(void *out, const void *slices, const size_t dims[3], size_t voxel_bytes);
+// BRICK_VOXELS_OF(border) elements. Beyond the first and the last voxel bricks repeat it.
+void pel_brick_layer(void *out, const struct pel_brick_source *source);
 
 #endif

@@ -7,7 +7,8 @@
 // Fails (ARGUMENT) on a setting that is no such thing.
 bool pel_detail_check(const struct pel_render_settings *render);
 
-// The level at which the scene shows an instance, 0 for its volume itself.
-int pel_detail_level(const struct pel_scene *scene, int instance);
+// The level at which the scene shows an instance, 0 for its volume itself: the finer one of what
+// its camera and a second eye's ask for, which may be NULL.
+int pel_detail_level(const struct pel_scene *scene, const struct pel_camera *second, int instance);
 
 #endif

@@ -54,9 +54,9 @@ double pel_reader_factor(enum pel_reader reader, int class_index) {
 }
 
 // One layer of a volume's bricks.
-static uint64_t layer_bytes(const struct pel_volume *volume) {
+static uint64_t layer_bytes(const struct pel_volume *volume, int border) {
     return (uint64_t)pel_brick_count((size_t)volume->dims[0] + 2) *
-           pel_brick_count((size_t)volume->dims[1] + 2) * BRICK_VOXELS *
+           pel_brick_count((size_t)volume->dims[1] + 2) * BRICK_VOXELS_OF(border) *
            pel_brick_element_bytes(pel_voxel_class_bytes(pel_voxel_class(volume->type)));
 }
 
@@ -64,7 +64,7 @@ static uint64_t layer_bytes(const struct pel_volume *volume) {
 static uint64_t scene_bytes(const struct pel_scene *scene) {
     uint64_t bytes = 0;
     for (int v = 0; v < scene->volume_count; v++)
-        bytes += layer_bytes(scene->volumes[v]) *
+        bytes += layer_bytes(scene->volumes[v], 0) *
                  pel_brick_count((size_t)scene->volumes[v]->dims[2] + 2);
     return bytes;
 }
@@ -124,7 +124,7 @@ static bool plan_buffers(struct pel_layout *layout, const struct pel_scene *scen
                 return false;
             continue;
         }
-        uint64_t layer = layer_bytes(volume);
+        uint64_t layer = layer_bytes(volume, layout->border);
         uint64_t most =
             limit / layer * BRICK_SIDE; // slices that fit into one buffer, border included
         bool whole = most >= (uint64_t)volume->dims[2] + 2;
@@ -246,6 +246,39 @@ static bool has_live(const struct pel_scene *scene) {
     return false;
 }
 
+// Whether gradients are found that a border of the bricks makes cheaper: kernels/gradient_brick.cl.
+static bool border_pays(const struct pel_scene *scene) {
+    for (int k = 0; k < scene->instance_count; k++) {
+        const struct pel_instance *instance = &scene->instances[k];
+        const struct pel_volume *volume = scene->volumes[instance->volume];
+        bool normals = instance->material.shading != PEL_SHADING_NONE ||
+                       instance->gradient_opacity_count > 0 || instance->silhouette.strength > 0;
+        bool words =
+            !volume->hypertexture && pel_voxel_class_bytes(pel_voxel_class(volume->type)) <= 2;
+        if (!instance->hidden && normals && words && instance->filter == PEL_FILTER_LINEAR &&
+            instance->gradient == PEL_GRADIENT_CENTRAL)
+            return true;
+    }
+    return false;
+}
+
+// Plans the buffers again with a border, which makes voxels take 1.4 times the room: unless nothing
+// is gained, more than half of the memory would be taken, or volumes be cut into more slabs.
+static void widen(struct pel_layout *layout, const struct pel_scene *scene,
+                  const struct pel_layout_limits *limits) {
+    struct pel_layout wider;
+    memset(&wider, 0, sizeof wider); // layouts are compared byte by byte
+    wider.cell_side = layout->cell_side;
+    wider.border = 1;
+    if (!border_pays(scene) || !plan_buffers(&wider, scene, limits))
+        return;
+    uint64_t bytes = 0;
+    for (int b = 0; b < VOXEL_BUFFERS; b++)
+        bytes += wider.buffer_bytes[b];
+    if (bytes <= limits->memory_bytes / 2 && wider.slab_count <= layout->slab_count)
+        memcpy(layout, &wider, sizeof wider);
+}
+
 // How far from a sample that can be seen voxels are read: gradients and cubic filters look around.
 static int pool_margin(const struct pel_scene *scene) {
     int margin = 0;
@@ -293,6 +326,16 @@ static bool pool_serves(const struct pel_scene *scene) {
     return true;
 }
 
+static bool plan_bricks(struct pel_layout *layout, const struct pel_scene *scene,
+                        const struct pel_layout_limits *limits) {
+    memset(layout, 0, sizeof *layout);
+    layout->cell_side = CELL_VOXELS;
+    if (!plan_buffers(layout, scene, limits))
+        return false;
+    widen(layout, scene, limits);
+    return true;
+}
+
 static bool plan_reader(struct pel_layout *layout, const struct pel_scene *scene,
                         const struct pel_layout_limits *limits, enum pel_reader reader,
                         enum pel_reader preferred) {
@@ -300,17 +343,16 @@ static bool plan_reader(struct pel_layout *layout, const struct pel_scene *scene
     if (has_live(scene))
         reader = PEL_READER_BUFFER;
     enum pel_reader first = reader == PEL_READER_AUTO ? preferred : reader;
+    if (first != PEL_READER_IMAGE)
+        return plan_bricks(layout, scene, limits);
     memset(layout, 0, sizeof *layout);
     layout->cell_side = CELL_VOXELS;
-    if (first == PEL_READER_IMAGE ? plan_images(layout, scene, limits)
-                                  : plan_buffers(layout, scene, limits))
+    if (plan_images(layout, scene, limits))
         return true;
-    if (reader != PEL_READER_AUTO || first == PEL_READER_BUFFER)
+    if (reader != PEL_READER_AUTO)
         return false;
     pel_warn("%s; reading from buffers instead", pel_error_message());
-    memset(layout, 0, sizeof *layout);
-    layout->cell_side = CELL_VOXELS;
-    return plan_buffers(layout, scene, limits);
+    return plan_bricks(layout, scene, limits);
 }
 
 bool pel_layout_plan(struct pel_layout *layout, const struct pel_scene *scene,

@@ -38,6 +38,7 @@ struct pel_layout {
     int slab_count;
     struct pel_slab slabs[WORLD_PART_MAX];
     uint64_t buffer_bytes[VOXEL_BUFFERS];
+    int border;         // `buffer` reader: 1 where bricks have one, for gradients (shared/brick.h)
     size_t range_count; // cells of all slabs
     int cell_side;      // voxels along a side of a cell
     bool pool;          // bricks come and go behind a table of pages; cells are bricks

@@ -34,7 +34,7 @@ static bool same_file(const char *a, const char *b) {
 
 static bool same_load_options(const struct pel_load_options *a, const struct pel_load_options *b) {
     return a->time == b->time && a->channel == b->channel &&
-           a->split_channels == b->split_channels &&
+           a->split_channels == b->split_channels && a->labels == b->labels &&
            memcmp(a->raw.dims, b->raw.dims, sizeof a->raw.dims) == 0 &&
            a->raw.type == b->raw.type && same_triple(a->raw.spacing, b->raw.spacing) &&
            same_triple(a->raw.origin, b->raw.origin) && a->raw.offset == b->raw.offset &&

@@ -13,7 +13,8 @@
 #include "base/text.h"
 #include "world/scene_override.h"
 
-enum { KEY_BYTES = 256, PLACE_BYTES = 1024, VALUE_BYTES = 48, NAMES_BYTES = 256 };
+enum { KEY_BYTES = 256, PLACE_BYTES = 1024, VALUE_BYTES = 48 };
+enum { LIST_NAMES = 24, LIST_SHOWN = 4 };
 
 const struct pel_range pel_any_number = {.low = -PEL_COORDINATE_MAX, .high = PEL_COORDINATE_MAX};
 const struct pel_range pel_positive_number = {.high = PEL_COORDINATE_MAX, .low_open = true};
@@ -226,23 +227,26 @@ bool pel_node_check_name(const struct pel_scene_node *node, const char *const *n
             return true;
         }
     }
-    char list[NAMES_BYTES] = "";
-    size_t used = 0;
-    for (int i = 0; names[i] && used < sizeof list; i++) {
-        const char *between = i == 0 ? "" : names[i + 1] ? ", " : " or ";
-        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", between, names[i]);
+    // All names, unless that would be more than a person reads.
+    char list[PLACE_BYTES / 2] = "";
+    int count = 0;
+    while (names[count])
+        count++;
+    int shown = count <= LIST_NAMES ? count : LIST_SHOWN;
+    if (shown < count)
+        snprintf(list, sizeof list, "one of %d names such as ", count);
+    for (int i = 0; i < shown; i++) {
+        size_t used = strlen(list);
+        const char *between = i == 0 ? "" : i + 1 < shown ? ", " : " or ";
+        snprintf(list + used, sizeof list - used, "%s%s", between, names[i]);
     }
-    if (used < sizeof list)
-        return pel_node_fail(node, "must be %s, not \"%.*s\"", list, VALUE_BYTES, text);
-    // Too many to be read in one sentence.
-    const char *nearest = pel_text_nearest(text, names);
-    if (!nearest)
+    const char *nearest = shown < count ? pel_text_nearest(text, names) : NULL;
+    if (!nearest && shown < count)
         nearest = find_part(text, names);
     if (nearest)
-        return pel_node_fail(node, "there is no \"%.*s\"; did you mean \"%s\"", VALUE_BYTES, text,
-                             nearest);
-    return pel_node_fail(node, "must be a name such as \"%s\", not \"%.*s\"", names[1], VALUE_BYTES,
-                         text);
+        return pel_node_fail(node, "must be %s, not \"%.*s\"; did you mean '%s'", list, VALUE_BYTES,
+                             text, nearest);
+    return pel_node_fail(node, "must be %s, not \"%.*s\"", list, VALUE_BYTES, text);
 }
 
 bool pel_node_check_numbers(const struct pel_scene_node *node, size_t count,

@@ -72,6 +72,19 @@ static bool read_raw(struct pel_load_options *load, const struct pel_scene_node 
     return true;
 }
 
+static bool read_labels(enum pel_label_choice *choice, const struct pel_scene_node *volume) {
+    struct pel_scene_node node;
+    bool labels = false;
+    if (!pel_node_member(&node, volume, "labels"))
+        return true;
+    *choice = PEL_LABELS_NO;
+    if (!pel_node_get_bool(volume, "labels", &labels))
+        return false;
+    if (labels)
+        *choice = PEL_LABELS_YES;
+    return true;
+}
+
 static bool read_file(struct pel_volume_plan *plan, const struct pel_scene_node *node) {
     struct pel_scene_node file, channel;
     const char *name;
@@ -81,7 +94,7 @@ static bool read_file(struct pel_volume_plan *plan, const struct pel_scene_node 
     if (!*name)
         return pel_node_fail(&file, "is empty");
     plan->load.split_channels = pel_node_member(&channel, node, "channel");
-    if (!read_raw(&plan->load, node) ||
+    if (!read_raw(&plan->load, node) || !read_labels(&plan->load.labels, node) ||
         !pel_node_get_integer(node, "time", 0, INT_MAX, &plan->load.time) ||
         !pel_node_get_integer(node, "channel", 0, INT_MAX, &plan->load.channel))
         return false;
@@ -153,7 +166,7 @@ static bool read_hypertexture(struct pel_volume_plan *plan, const struct pel_sce
 }
 
 bool pel_scene_read_source(struct pel_volume_plan *plan, const struct pel_scene_node *node) {
-    static const char *const only_files[] = {"raw", "time", "channel", NULL};
+    static const char *const only_files[] = {"raw", "time", "channel", "labels", NULL};
     struct pel_scene_node file, generate, member;
     bool has_file = pel_node_member(&file, node, "file");
     bool has_generate = pel_node_member(&generate, node, "generate");
@@ -249,6 +262,9 @@ void pel_scene_write_source(struct pel_scene_writer *writer, json_t *volume,
         pel_write_number(writer, volume, "time", load->time, 0);
         // The key alone says that channels are taken apart.
         pel_write_number(writer, volume, "channel", load->channel, load->split_channels ? -1 : 0);
+        if (load->labels != PEL_LABELS_AUTO)
+            pel_write_bool(writer, volume, "labels", load->labels == PEL_LABELS_YES,
+                           load->labels != PEL_LABELS_YES);
     }
     if (source->spacing[0] > 0)
         pel_write_numbers(writer, volume, "spacing", 3, source->spacing);

@@ -12,15 +12,37 @@
 #include "world/scene.h"
 #include "world/scene_write.h"
 
-static const char *const volume_keys[] = {
-    "comment",      "file",    "hypertexture", "generate",
-    "raw",          "time",    "channel",      "name",
-    "visible",      "spacing", "transform",    "transfer",
-    "density",      "extent",  "filter",       "palette",
-    "opacity_unit", "shading", "step",         "step_mm",
-    "model",        "iso",     "priority",     "preintegration",
-    "clip",         "mask",    "gradient",     "gradient_opacity",
-    "silhouette",   NULL};
+static const char *const volume_keys[] = {"comment",
+                                          "file",
+                                          "hypertexture",
+                                          "generate",
+                                          "raw",
+                                          "time",
+                                          "channel",
+                                          "name",
+                                          "visible",
+                                          "spacing",
+                                          "transform",
+                                          "transfer",
+                                          "density",
+                                          "extent",
+                                          "filter",
+                                          "palette",
+                                          "opacity_unit",
+                                          "shading",
+                                          "step",
+                                          "step_mm",
+                                          "model",
+                                          "iso",
+                                          "priority",
+                                          "preintegration",
+                                          "clip",
+                                          "mask",
+                                          "gradient",
+                                          "gradient_opacity",
+                                          "silhouette",
+                                          "labels",
+                                          NULL};
 
 // In the order of their enums.
 static const char *const extent_names[] = {"cell", "point", NULL};

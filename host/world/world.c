@@ -262,13 +262,6 @@ static bool build_tables(struct pel_memo *memo, struct pel_world *world,
     return true;
 }
 
-// One ray through the centre, as it is, is what a kernel does without being told.
-static bool is_supersampled(const struct pel_supersampling *supersampling) {
-    bool centred = supersampling->pattern == PEL_PATTERN_REGULAR ||
-                   supersampling->pattern == PEL_PATTERN_HAMMERSLEY;
-    return supersampling->n > 1 || !centred || supersampling->filter != PEL_RECONSTRUCTION_BOX;
-}
-
 static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_bounds *bounds, const double centre[3]) {
     const struct pel_render_settings *settings = &scene->render;
@@ -383,11 +376,19 @@ static bool fill_masks(struct pel_world *world, const struct pel_scene *scene,
     return true;
 }
 
+// One ray through the centre, as it is, is what a kernel does without being told.
+bool pel_world_is_supersampled(const struct pel_supersampling *supersampling) {
+    bool centred = supersampling->pattern == PEL_PATTERN_REGULAR ||
+                   supersampling->pattern == PEL_PATTERN_HAMMERSLEY;
+    return supersampling->n > 1 || !centred || supersampling->filter != PEL_RECONSTRUCTION_BOX;
+}
+
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout, struct pel_memo *memo) {
     memset(world, 0, sizeof *world);
     world->cell_side = layout->cell_side;
     world->pool = layout->pool;
+    world->border = layout->border;
     world->eyes = EYES_ONE;
     world->bytes.pictures = 1;
     struct pel_bounds bounds = {{0}, {0}};
@@ -404,7 +405,8 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
         !pel_lighting_fill_lamps(&world->bytes, scene, centre))
         return false;
 
-    world->supersampling = !scene->render.debug && is_supersampled(&scene->render.supersampling);
+    world->supersampling =
+        !scene->render.debug && pel_world_is_supersampled(&scene->render.supersampling);
     world->jitter = scene->render.jitter;
     world->models = pel_model_kernel(scene);
     // A volume on its own, or one blended at a time, is looked up as opacity; slabs of one count as
@@ -427,17 +429,43 @@ bool pel_world_add_eye(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_camera *second, int eyes, const int weave[2]) {
     world->eyes = eyes;
     world->bytes.pictures = pel_world_pictures(world);
+    world->bytes.row_px = world->bytes.width;
+    world->bytes.eye_px = world->bytes.width * world->bytes.height;
     world->bytes.weave_x = weave[0];
     world->bytes.weave_y = weave[1];
     return fill_camera(&world->bytes.second, second, &scene->render, world->centre);
+}
+
+void pel_world_merge_eyes(struct pel_world *world, const double matrix[3][6], bool linear,
+                          const float background[4]) {
+    memcpy(&world->bytes.merged_background, background, sizeof world->bytes.merged_background);
+    world->bytes.merge_linear = linear;
+    for (int n = 0; n < 6; n++) {
+        const double column[3] = {matrix[0][n], matrix[1][n], matrix[2][n]};
+        world->bytes.merge[n] = to_float4(column, 0);
+    }
+}
+
+void pel_world_lay_beside(struct pel_world *world) {
+    world->bytes.eye_px = world->bytes.width;
+    world->bytes.row_px = 2 * world->bytes.width;
+}
+
+int pel_world_eyes(const struct pel_world *world) {
+    return world->eyes == EYES_BOTH || world->eyes == EYES_MERGED ? 2 : 1;
 }
 
 int pel_world_pictures(const struct pel_world *world) {
     return world->eyes == EYES_BOTH ? 2 : 1;
 }
 
+int pel_world_across(const struct pel_world *world) {
+    return world->eyes == EYES_BOTH && world->bytes.row_px > world->bytes.width ? 2 : 1;
+}
+
 int pel_world_planes(const struct pel_world *world) {
-    return world->eyes == EYES_BOTH || world->eyes == EYES_DEPTH ? 2 : 1;
+    bool two = world->eyes == EYES_BOTH || world->eyes == EYES_DEPTH;
+    return two ? 2 / pel_world_across(world) : 1;
 }
 
 void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {

@@ -16,6 +16,7 @@ struct pel_world {
     size_t cell_count; // of all parts (shared/grid.h)
     int cell_side;     // voxels along a side of a cell
     bool pool;         // bricks come from a pool
+    bool border;       // bricks have a border
     // What the kernel must be able to do.
     int voxels;         // classes of voxels, VOXELS_*
     int filters;        // FILTERS_*
@@ -49,14 +50,28 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout, struct pel_memo *memo);
 void pel_world_finish(struct pel_world *world);
 
-// Lets the world be seen by a second eye, too: EYES_BOTH, or EYES_WOVEN, whose picture's pixels
-// are the second one's where weave[0] x + weave[1] y is odd. Fails (ARGUMENT) on a camera without
-// direction.
+// Whether a pixel takes more than the one ray through its centre.
+bool pel_world_is_supersampled(const struct pel_supersampling *supersampling);
+
+// Lets the world be seen by a second eye, too: EYES_BOTH, EYES_MERGED, or EYES_WOVEN, whose
+// picture's pixels are the second one's where weave[0] x + weave[1] y is odd. Fails (ARGUMENT) on a
+// camera without direction.
 bool pel_world_add_eye(struct pel_world *world, const struct pel_scene *scene,
                        const struct pel_camera *second, int eyes, const int weave[2]);
 
-// How many pictures rays are followed for, and how many lie above each other, depth counted as one.
+// Lets one pixel be made of both eyes' colours by a matrix: of red, green and blue of the first
+// one, then of the second. Where both see the background it is `background`, premultiplied.
+void pel_world_merge_eyes(struct pel_world *world, const double matrix[3][6], bool linear,
+                          const float background[4]);
+
+// Lets the second one of EYES_BOTH's pictures lie beside the first one, not below it.
+void pel_world_lay_beside(struct pel_world *world);
+
+// How many eyes' rays are followed, and counted apart; how many pictures there are for tiles to
+// cover; and how many lie beside and above each other, depth counted as one.
+int pel_world_eyes(const struct pel_world *world);
 int pel_world_pictures(const struct pel_world *world);
+int pel_world_across(const struct pel_world *world);
 int pel_world_planes(const struct pel_world *world);
 
 // How many of the first bytes of world->bytes there are for a kernel to read.

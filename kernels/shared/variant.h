@@ -97,6 +97,7 @@
 #define EYES_BOTH 2  // two pictures, the second eye's behind the first one's; their tiles take turns
 #define EYES_WOVEN 3 // one picture, whose pixels are one eye's or the other's
 #define EYES_DEPTH 4 // one picture, and behind it how far away what each pixel shows is
+#define EYES_MERGED 5 // one picture, each pixel a colour made of both eyes' (kernels/glasses.cl)
 
 // What a debug view shows of each ray (kernels/debug.cl). The knob DEBUG is 1 when the device counts.
 #define DEBUG_NONE 0

@@ -117,7 +117,11 @@ struct world {
     i32 medium_count; // instances that are mixed
     i32 weave_x, weave_y; // EYES_WOVEN: pixels where weave_x * x + weave_y * y is odd are the second eye's
     i32 pictures; // above each other, one of each eye: 1 or 2
-    i32 pad[1];
+    i32 row_px, eye_px; // EYES_BOTH: pixels from one row to the next, and from one picture to the other
+    i32 pad[2];
+    i32 merge_linear; // EYES_MERGED: 1: the matrix acts on linear light, 0: on values as they are stored
+    float4 merge[6];  // and its columns: red, green, blue of the first eye, then of the second
+    float4 merged_background; // what it makes of two backgrounds
     float shadow_step_mm, shadow_length_mm, shadow_strength;
     float occlusion_step_mm, occlusion_radius_mm, occlusion_strength;
     i32 occlusion_count; // directions,
@@ -129,7 +133,7 @@ struct world {
 };
 
 SHARED_ASSERT(sizeof(struct world) ==
-                  368 + 48 * LAMP_MAX + (16 + 448) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
+                  496 + 48 * LAMP_MAX + (16 + 448) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
               world_size);
 
 #endif

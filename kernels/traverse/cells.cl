@@ -40,8 +40,8 @@ INLINE integer cursor_leap(__constant struct part *part, __global const uchar *c
         if (!any_lane(leaps & asks))
             break;
         real count = samples_to_leave(place.x, cursor->dx, empty);
-        count = fmin(count, samples_to_leave(place.y, cursor->dy, empty));
-        count = fmin(count, samples_to_leave(place.z, cursor->dz, empty));
+        count = AT_MOST(count, samples_to_leave(place.y, cursor->dy, empty));
+        count = AT_MOST(count, samples_to_leave(place.z, cursor->dz, empty));
         i += CHOOSE((integer)(0), whole_leap(count), leaps & MASK(i < cursor->end));
         if (any_lane(asks & ~leaps))
             break;

@@ -38,6 +38,13 @@ INLINE integer sample_at(real t, real t_near, ray_phase phase, float per_mm) {
     return TO_INTEGER(clamp(number, 0.0f, 1e9f));
 }
 
+// How far a ray moves along an axis from sample to sample: never 0, because leaps divide by it, but
+// where it runs along the cells' walls, or not at all, so little that it never leaves them.
+INLINE real move_along(real delta, mask runs) {
+    const mask moves = runs & MASK(fabs(delta) > 1e-20f);
+    return CHOOSE((real)(1e-20f), delta, moves);
+}
+
 // Places the cursor at the start of the part, whose samples are `step_mm` apart.
 INLINE struct cursor cursor_begin(__constant struct world *world, __constant struct part *part,
                                   const struct ray *ray_voxel, const struct span *span, real t_near,
@@ -61,13 +68,13 @@ INLINE struct cursor cursor_begin(__constant struct world *world, __constant str
 
     const real t_first = t_near + phase * step_mm;
     const float4 shift = part->memory_from_voxel;
-    const real zero = (real)(0.0f), one = (real)(1.0f);
+    const real one = (real)(1.0f);
     cursor.ox = CHOOSE(one, ray_voxel->ox + t_first * ray_voxel->dx + shift.x, runs);
     cursor.oy = CHOOSE(one, ray_voxel->oy + t_first * ray_voxel->dy + shift.y, runs);
     cursor.oz = CHOOSE(one, ray_voxel->oz + t_first * ray_voxel->dz + shift.z, runs);
-    cursor.dx = CHOOSE(zero, step_mm * ray_voxel->dx, runs);
-    cursor.dy = CHOOSE(zero, step_mm * ray_voxel->dy, runs);
-    cursor.dz = CHOOSE(zero, step_mm * ray_voxel->dz, runs);
+    cursor.dx = move_along(step_mm * ray_voxel->dx, runs);
+    cursor.dy = move_along(step_mm * ray_voxel->dy, runs);
+    cursor.dz = move_along(step_mm * ray_voxel->dz, runs);
     return cursor;
 }
 

@@ -23,15 +23,13 @@ INLINE struct place cursor_place(const struct cursor *cursor, integer i) {
 
 // How many samples from x on lie before the ray meets a plane between voxels, along one axis.
 INLINE real samples_to_plane(real x, real delta, integer plane) {
-    // A ray along the cells' walls never leaves them on this axis.
-    const real speed = CHOOSE(delta, (real)(1e-20f), MASK(fabs(delta) < 1e-20f));
-    return (TO_REAL(plane) - x) / speed;
+    return (TO_REAL(plane) - x) / delta;
 }
 
-// The number of samples to leap over, at least one, of `count` before a wall: a hundredth of a
-// sample less than computed, so that rounding can only cost another look.
+// The number of samples to leap over, at least one, of `count` before a wall: rounded up, from a
+// hundredth of a sample less than computed, so that rounding can only cost another look.
 INLINE integer whole_leap(real count) {
-    return max(TO_INTEGER(ceil(fmin(count, (real)(1e8f)) - 0.01f)), (integer)(1));
+    return max(TO_INTEGER(AT_MOST(count, (real)(1e8f)) + 0.99f), (integer)(1));
 }
 
 #endif

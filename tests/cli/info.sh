@@ -72,4 +72,15 @@ expect 0 '' info parts.json --json
 check_json 'x[0]["volumes"][0]["mask"] == {"volume": 1, "name": "two", "values": "1,3,5..7,>=9", "inverted": True}'
 check_json '(x[0]["volumes"][0]["model"], x[0]["volumes"][0]["priority"]) == ("mip", 2)'
 check_json 'x[0]["clips"][0]["kind"] == "plane" and x[0]["volumes"][0]["clips"][0]["size"] == [4, 5, 6]'
+
+# Labels in a format that cannot say so: pointed out, taken by option or by key, and by name and values.
+expect 0 '' generate head-labels --size 96 -o head.tif
+expect 0 'perhaps +a label map: --labels' info head.tif
+expect 0 'uint8 labels' info head.tif --labels
+expect 0 '' info head.tif --json
+check_json 'x[0]["labels"] is False and x[0]["seems_labels"] is True'
+cp head.tif head_labels.tif
+expect 0 'uint8 labels' info head_labels.tif
+expect 0 '' generate head-mri --size 16 -o mri_labels.tif
+expect 0 'uint8,' info mri_labels.tif
 exit $failed

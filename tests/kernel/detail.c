@@ -110,6 +110,44 @@ static void test_skip(void **state) {
     pel_renderer_destroy(renderer);
 }
 
+// Toed-in eyes beside a volume see it from different depths, and both see the level that the nearer
+// one needs: in one launch, and in two.
+static void test_two_eyes(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
+    struct pel_scene *scene = scene_of(30, 24);
+    scene->instances[0].transform.m[0][3] = 60;
+    scene->instances[1].transform.m[0][3] = -70;
+    scene->render.lod = PEL_LOD_AUTO;
+    scene->stereo = (struct pel_stereo){
+        .kind = PEL_STEREO_TWO_FILES, .toe_in = true, .separation_mm = 150, .convergence_mm = 90};
+    struct pel_camera cameras[2];
+    assert_true(pel_stereo_cameras(scene, cameras, NULL));
+    int least[2] = {PEL_LOD_LEVEL_MAX, PEL_LOD_LEVEL_MAX}, most[2] = {0, 0};
+    struct pel_render_statistics statistics;
+    for (int i = 0; i < 2; i++) {
+        struct pel_scene alone = *scene;
+        alone.stereo.kind = PEL_STEREO_NONE;
+        alone.camera = cameras[i];
+        pel_image_destroy(render_picture(renderer, &alone, &statistics));
+        for (int k = 0; k < 2; k++) {
+            int level = statistics.lod.levels[k];
+            least[k] = level < least[k] ? level : least[k];
+            most[k] = level > most[k] ? level : most[k];
+        }
+    }
+    assert_true(least[0] < most[0] || least[1] < most[1]);
+    for (int swap = 0; swap < 2; swap++)
+        for (int apart = 0; apart < 2; apart++) {
+            scene->stereo.swap = swap;
+            scene->render.debug = apart ? PEL_DEBUG_SAMPLES : PEL_DEBUG_NONE;
+            pel_image_destroy(render_picture(renderer, scene, &statistics));
+            assert_memory_equal(statistics.lod.levels, least, sizeof least);
+        }
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
 static void test_refusals(void **state) {
     (void)state;
     struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, 1);
@@ -127,9 +165,8 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_levels),
-        cmocka_unit_test(test_far),
-        cmocka_unit_test(test_skip),
+        cmocka_unit_test(test_levels),   cmocka_unit_test(test_far),
+        cmocka_unit_test(test_skip),     cmocka_unit_test(test_two_eyes),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -106,6 +106,11 @@ static const struct {
     AT(world, weave_x),
     AT(world, weave_y),
     AT(world, pictures),
+    AT(world, row_px),
+    AT(world, eye_px),
+    AT(world, merge_linear),
+    AT(world, merge),
+    AT(world, merged_background),
     AT(world, balls),
     AT(world, shadow_step_mm),
     AT(world, shadow_length_mm),
@@ -141,7 +146,7 @@ enum { COUNT = sizeof host / sizeof *host };
 
 static void test_layout(void **state) {
     (void)state;
-    struct pel_device *device = pel_device_open(NULL, 0);
+    struct pel_device *device = pel_device_open(NULL, 0, &(struct pel_gl){0});
     if (!device)
         fail_msg("%s", pel_error_message());
     struct pel_kernel *kernel =

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/math.h"
+#include "shared/brick.h"
 #include "support/judge.h"
 #include "support/render.h"
 #include "support/scenes.h"
@@ -64,7 +65,7 @@ static struct pel_scene *scene_of(int n) {
                               .ambient = 0.2,
                               .diffuse = 0.6,
                               .specular = 0.4,
-                              .shininess = 5};
+                              .shininess = n % 2 ? 5 : 7.3};
     // All zero: the usual material.
     second->material.shading = n % 7 == 0 ? PEL_SHADING_NONE : PEL_SHADING_BLINN_PHONG;
     return scene;
@@ -95,14 +96,21 @@ static void test_variants(void **state) {
     check_variant(PEL_READER_IMAGE, 4, 21, 24);
 }
 
-// A volume in slabs has the gradients of a whole one, also where it is cut.
+// A volume in slabs has the gradients of a whole one, also where it is cut: in bricks with a
+// border, and without one where there is no room for it.
 static void test_slabs(void **state) {
     (void)state;
     struct pel_scene *scene = scene_tall(16, 24);
     scene->instances[0].material.shading = PEL_SHADING_BLINN_PHONG;
-    struct pel_renderer *renderer = render_in_slabs(0);
-    pel_image_destroy(judge_render(renderer, scene, NULL, "slabs"));
-    pel_renderer_destroy(renderer);
+    for (int border = 0; border <= 1; border++) {
+        const struct pel_renderer_options options = {.reader = PEL_READER_BUFFER,
+                                                     .max_allocation_bytes =
+                                                         2 * BRICK_VOXELS_OF((uint64_t)border)};
+        struct pel_renderer *renderer = pel_renderer_create(&options);
+        assert_non_null(renderer);
+        pel_image_destroy(judge_render(renderer, scene, NULL, border ? "border" : "slabs"));
+        pel_renderer_destroy(renderer);
+    }
     pel_scene_destroy(scene);
 }
 

@@ -18,7 +18,7 @@ static void wake(void) {
 }
 
 static struct pel_worker *make_worker(const struct pel_renderer_options *options) {
-    struct pel_worker *worker = pel_worker_create(options, wake);
+    struct pel_worker *worker = pel_worker_create(options, NULL, wake);
     assert_non_null(worker);
     return worker;
 }

@@ -14,7 +14,7 @@ declare -A below=(
     [base]="" [device]="" [volume]="" [transfer]="" [camera]="" [output]=""
     [accel]="volume transfer"
     [world]="volume transfer camera accel"
-    [render]="device world accel camera volume"
+    [render]="device world accel camera volume output"
     [viewer]=""
     [cli]="viewer"
 )
@@ -30,7 +30,7 @@ declare -A library=(
     ["jansson\.h"]='host/base/|host/transfer/|host/world/(scene|recipe)|host/volume/(raw|sidecar)|host/cli/|host/viewer/'
     ["argp\.h"]='host/cli/'
     ["GLFW/"]='host/viewer/window\.c'
-    ["epoxy/|GL/"]='host/viewer/present\.c'
+    ["epoxy/|GL/"]='host/viewer/(present|lender)\.c'
     ["imgui"]='host/viewer/widget\.cpp'
     ["pthread\.h|threads\.h"]='host/(render|base|volume|viewer)/'
 )

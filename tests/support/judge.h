@@ -38,4 +38,9 @@ bool judge_has_images(struct pel_renderer *renderer, const struct pel_scene *sce
 // (support/on).
 int judge_packet_lanes(void);
 
+// Fails the test unless a picture of both eyes is the one that pel_stereo_compose has made of them:
+// bit for bit, and as an anaglyph, which the device works out, within 1e-5.
+void judge_composed(const struct pel_image *picture, const struct pel_image *composed,
+                    enum pel_stereo_kind kind, const char *title);
+
 #endif

@@ -134,7 +134,7 @@ static struct pel_transfer *haze(void) {
 }
 
 static void expect_levels(const struct pel_scene *scene, int level) {
-    assert_int_equal(pel_detail_level(scene, 0), level);
+    assert_int_equal(pel_detail_level(scene, NULL, 0), level);
     assert_int_equal(reference_level_of(scene, 0), level);
 }
 
@@ -176,7 +176,7 @@ static void test_exceptions(void **state) {
     expect_levels(scene, 2);
     scene->instances[0].filter = PEL_FILTER_NEAREST;
     expect_levels(scene, 0);
-    assert_int_equal(pel_detail_level(scene, 1), 2);
+    assert_int_equal(pel_detail_level(scene, NULL, 1), 2);
     scene->instances[0].filter = PEL_FILTER_LINEAR;
     scene->instances[1].mask = (struct pel_mask){.range_count = 1, .instance = 0};
     expect_levels(scene, 0);
@@ -186,11 +186,30 @@ static void test_exceptions(void **state) {
     pel_scene_destroy(scene);
 }
 
+// Of two eyes the one that needs more decides, whichever is asked first.
+static void test_two_eyes(void **state) {
+    (void)state;
+    struct pel_scene *scene = scene_create(10, 10);
+    scene_add(scene, scene_volume_constant((int[]){9, 9, 1}, PEL_VOXEL_U8, 1), haze());
+    scene->render.lod = PEL_LOD_AUTO;
+    scene->render.height = 9;
+    const struct pel_camera far = scene->camera;
+    expect_levels(scene, 2);
+    scene->camera.eye[2] /= 2;
+    const struct pel_camera near = scene->camera;
+    expect_levels(scene, 1);
+    assert_int_equal(pel_detail_level(scene, &far, 0), 1);
+    scene->camera = far;
+    assert_int_equal(pel_detail_level(scene, &near, 0), 1);
+    pel_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_by_hand),   cmocka_unit_test(test_extent),
         cmocka_unit_test(test_reference), cmocka_unit_test(test_anisotropic),
         cmocka_unit_test(test_footprint), cmocka_unit_test(test_exceptions),
+        cmocka_unit_test(test_two_eyes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,7 +83,8 @@ static const char *const rich[] = {
     " 'wall': {'regions': [{'place': [0, 0, 0.5, 1], 'monitor': 1, 'device': 'gpu'}]},"
     " 'output': {'file': 'out/picture.png', 'depth': 16, 'alpha': 'premultiplied'}}",
     "{'volumes': [{'file': 'a.raw', 'raw': {'dims': [2, 3, 4], 'offset': 0}, 'time': 0,"
-    "   'channel': 0, 'transfer': {'points': [[0, '#ffffff', 0], [1, '#102030', 0.5]]}, 'shading': "
+    "   'channel': 0, 'labels': true, 'transfer': {'points': [[0, '#ffffff', 0], [1, '#102030', "
+    "0.5]]}, 'shading': "
     "true}, {'hypertexture': {'recipe': {'value': ['*', 'time', 'object']}, 'size': 8, 'type':"
     "   'float32', 'seed': 3, 'time': 0.5, 'live': true, 'object': 'a.raw'}},"
     "   {'hypertexture': {'recipe': 'cloud', 'size': 4, 'wrap': true}}],"

@@ -20,6 +20,15 @@ assert scene["animation"]["frames"] == 31, scene["animation"]
 assert scene["volumes"][0]["density"] == 1.25, scene["volumes"]' 2>trouble || complain "$(tail -1 trouble)"
 shut
 
+# A scene that is saved at a keyframe renders as it, and says so when saved elsewhere.
+cp scene.json film.json
+open film.json --bare --screenshot window.ppm --frames 100000 || exit 1
+xdotool key g key 5 sleep 0.8 key g sleep 0.2
+saved film.json
+shut
+"$PELLUCID" render film.json -o still.ppm || complain "cannot render the saved film"
+[ "$(differ window.ppm still.ppm)" = 0 ] || complain "the still differs by $(differ window.ppm still.ppm)"
+
 # Played to its end the window rests at the last frame.
 echo '{"steps": [{"wait": "rest"}, {"key": "p"}, {"wait": "rest"}]}' >play.json
 "$PELLUCID" render scene.json --frame 30 -o last.ppm || complain "cannot render frame 30"

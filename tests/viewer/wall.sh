@@ -30,18 +30,26 @@ eyes=(--set stereo.kind=row-interlaced --set stereo.separation=8)
 expect 0 '' view scene.json --bare "${eyes[@]}" --screenshot eyes.ppm
 same "two eyes" eyes.ppm whole.ppm
 
-# So do the squares of two volumes that are compared, while slices beside the picture have no room: six keys
-# lead a wall, which leaves them out, back to the picture.
+# So do the squares of two volumes that are compared, and slices beside the picture; seven keys lead back to that.
+# Where a wall does not cover the picture's place beside the slices, it shows the picture alone.
 "$PELLUCID" generate head-mri --size 24 -o mri.nrrd 2>/dev/null || complain "cannot generate"
 both=(ct.nrrd mri.nrrd --size 241x135 --bare)
 echo '{"steps": [{"wait": "rest"}, {"key": "b"}, {"key": "b"}, {"wait": "rest"}, {"screenshot": "squares.ppm"},
-    {"key": "b"}, {"key": "b"}, {"key": "b"}, {"key": "b"}, {"wait": "rest"}]}' >compare.json
-expect 0 '' view "${both[@]}" --script compare.json --screenshot slices.ppm
-mv squares.ppm single.ppm
+    {"key": "b"}, {"key": "b"}, {"key": "b"}, {"key": "b"}, {"wait": "rest"}, {"wheel": 2, "at": [20, 20]},
+    {"click": [40, 30]}, {"wait": "rest"}, {"screenshot": "slices.ppm"}, {"key": "b"}, {"wait": "rest"}]}' >compare.json
+expect 0 '' view "${both[@]}" --script compare.json --screenshot picture.ppm
+mv squares.ppm single-squares.ppm
+mv slices.ppm single-slices.ppm
 expect 0 '' view "${both[@]}" --set 'wall={"columns": 3, "rows": 2}' --script compare.json --screenshot back.ppm
-same "squares" squares.ppm single.ppm
-expect 0 '' view "${both[@]}" --screenshot picture.ppm
+same "squares" squares.ppm single-squares.ppm
+same "slices" slices.ppm single-slices.ppm
 same "after comparing" back.ppm picture.ppm
+[ "$(differ slices.ppm picture.ppm)" != 0 ] || complain "there are no slices"
+upper='{"regions": [{"place": [0, 0, 1, 0.4]}, {"place": [0, 0.5, 0.4, 0.5]}]}'
+echo '{"steps": [{"key": "shift+b"}, {"wait": "rest"}]}' >shift.json
+expect 0 '' view "${both[@]}" --set "wall=$upper" --script shift.json --screenshot slices.ppm
+expect 0 '' view "${both[@]}" --set "wall=$upper" --screenshot picture.ppm
+same "no place for the picture" slices.ppm picture.ppm
 
 # What the bezels hide is hidden: it is black, and all else is as it is without them.
 "$PELLUCID" render scene.json --set wall=null -o whole.ppm || complain "cannot render"
@@ -75,5 +83,5 @@ same "after a drag" after.ppm after-whole.ppm
 [ "$(differ after.ppm whole.ppm)" != 0 ] || complain "the drag changed nothing"
 
 # A monitor that is not there.
-expect 6 'there is no monitor 8, but 1 of them' view scene.json --full-screen=7
+expect 6 'there is no monitor 7: they are counted from 0 to 0' view scene.json --full-screen=7
 exit $failed
