@@ -1,7 +1,8 @@
 // reproject.c - what a second eye sees, from the first one's picture.
 //
-// With parallel cameras a point stays in its row, so rows are worked on one by one (Adelson &
-// Hodges 1993). Neighbouring pixels that stay neighbours are one surface: what is between them is
+// With parallel cameras of perspective, and with orthographic ones that are turned around their
+// upward direction, a point stays in its row, so rows are worked on one by one (Adelson & Hodges
+// 1993). Neighbouring pixels that stay neighbours are one surface: what is between them is
 // between their colours. Where the surface tears, or folds over itself, is an edge, and the pixels
 // around it are rays to be cast, as are those that nothing came to. The nearer wins.
 #include "render/reproject.h"
@@ -18,6 +19,9 @@
 // Neighbours are at most and at least so far apart in the second picture to be one surface.
 static const double apart_most = 1.5, apart_least = 0.5;
 
+// Farther than anything.
+static const double behind_mm = 1e30;
+
 // One row on its way.
 struct row {
     int width;
@@ -25,8 +29,8 @@ struct row {
     float *to;         // and of the second
     uint8_t *holes;    // of the second
     double *place;     // of the first picture's pixels in the second, in pixels from its left edge
-    double *near;      // their inverse depths
-    double *nearest;   // inverse depth of what the second picture's pixels show; -1: nothing
+    double *near;      // how near they are there: inverse depths, or negative ones
+    double *nearest;   // likewise of what the second picture's pixels show; -INFINITY: nothing
 };
 
 // The least pixel whose middle is at or right of place a, and the greatest at or left of it, in a
@@ -45,9 +49,39 @@ static double half_height(const struct pel_camera *camera) {
     return tan(camera->fov_deg * PEL_PI / 360);
 }
 
-struct pel_parallax pel_parallax_between(const struct pel_camera cameras[2], int width,
-                                         int height) {
-    double forward[3], right[3], up[3], apart = 0, aspect = (double)width / height;
+// Both cameras look through windows of one size, at places that differ by what their directions do.
+static struct pel_parallax find_parallel(const struct pel_camera cameras[2],
+                                         const struct pel_render_settings *settings) {
+    double forward[2][3], right[2][3], up[3], between[3], to_target[3];
+    for (int n = 0; n < 2; n++)
+        if (!pel_camera_basis(&cameras[n], forward[n], right[n], up))
+            return (struct pel_parallax){0};
+    for (int i = 0; i < 3; i++) {
+        between[i] = cameras[0].eye[i] - cameras[1].eye[i];
+        to_target[i] = cameras[0].target[i] - cameras[0].eye[i];
+    }
+    double px_per_mm = settings->height / cameras[0].height_mm;
+    double middle = settings->width / 2.0, left = settings->region[0];
+    double shift_mm = cameras[0].height_mm * cameras[0].shift[0];
+    double scale = pel_dot(right[0], right[1]);
+    double moved_mm = pel_dot(between, right[1]) + (scale - 1) * shift_mm;
+    return (struct pel_parallax){
+        .orthographic = true,
+        .scale = scale,
+        .shift_px = (1 - scale) * (middle - left) + px_per_mm * moved_mm,
+        .slope_px_mm = px_per_mm * pel_dot(forward[0], right[1]),
+        .lean_mm_px = pel_dot(right[0], forward[1]) / px_per_mm,
+        .fall = pel_dot(forward[0], forward[1]),
+        .empty_mm = pel_dot(to_target, forward[0]),
+    };
+}
+
+struct pel_parallax pel_parallax_between(const struct pel_camera cameras[2],
+                                         const struct pel_render_settings *settings) {
+    if (cameras[0].orthographic)
+        return find_parallel(cameras, settings);
+    int width = settings->width;
+    double forward[3], right[3], up[3], apart = 0, aspect = (double)width / settings->height;
     if (pel_camera_basis(&cameras[0], forward, right, up))
         for (int i = 0; i < 3; i++)
             apart += (cameras[1].eye[i] - cameras[0].eye[i]) * right[i];
@@ -68,8 +102,8 @@ void pel_depth_from_distance(float *depth, const struct pel_camera *camera,
         double up = half * (1 - 2 * (y + 0.5) / height + 2 * camera->shift[1]);
         for (int x = left; x < right_end; x++, depth++) {
             double right = half * (aspect * (2 * (x + 0.5) / width - 1) + 2 * camera->shift[0]);
-            *depth =
-                *depth == FLT_MAX ? INFINITY : (float)(*depth / sqrt(1 + right * right + up * up));
+            double slant = camera->orthographic ? 1 : sqrt(1 + right * right + up * up);
+            *depth = *depth == FLT_MAX ? INFINITY : (float)(*depth / slant);
         }
     }
 }
@@ -115,6 +149,12 @@ static bool find_places(struct row *row, const float *depth, const struct pel_pa
             return false;
         row->near[i] = 1 / (double)depth[i];
         row->place[i] = i + 0.5 + parallax->shift_px - parallax->reach_mm_px * row->near[i];
+        if (!parallax->orthographic)
+            continue;
+        bool empty = isinf(depth[i]);
+        double x = i + 0.5, z = empty ? parallax->empty_mm : (double)depth[i];
+        row->near[i] = empty ? -behind_mm : -parallax->lean_mm_px * x - parallax->fall * z;
+        row->place[i] = parallax->scale * x + parallax->shift_px + parallax->slope_px_mm * z;
     }
     return true;
 }
@@ -125,7 +165,7 @@ static void reproject_row(struct row *row, const float *depth,
     if (!find_places(row, depth, parallax))
         return;
     for (int k = 0; k < row->width; k++)
-        row->nearest[k] = -1;
+        row->nearest[k] = -INFINITY;
     for (int i = 0; i + 1 < row->width; i++)
         if (is_surface(row, i))
             fill_between(row, i);

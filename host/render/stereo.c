@@ -124,13 +124,13 @@ static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_
     return both;
 }
 
-// Reprojection moves colours along rows, from one ray of each pixel.
+// Reprojection moves colours along rows, from one ray of each pixel: toed-in cameras of perspective
+// move them out of their rows, and the mean of several rays has no one depth.
 static bool check_reproject(const struct pel_scene *scene) {
     const struct pel_supersampling *supersampling = &scene->render.supersampling;
-    if (scene->stereo.toe_in || scene->camera.orthographic)
+    if (scene->stereo.toe_in && !scene->camera.orthographic)
         return pel_fail(PEL_ERROR_UNSUPPORTED,
-                        "stereo.reproject needs parallel cameras of perspective, not %s",
-                        scene->camera.orthographic ? "an orthographic view" : "toe_in");
+                        "stereo.reproject needs parallel cameras, not toe_in");
     if (supersampling->n > 1)
         return pel_fail(PEL_ERROR_UNSUPPORTED,
                         "stereo.reproject goes with one ray a pixel, not with %d x %d",
@@ -178,8 +178,7 @@ static bool make_second(struct pel_renderer *renderer, struct pel_scene *seen,
     for (size_t i = 0; good && i < pixels; i++)
         depth[i] = second.rgba[4 * i];
     if (good) {
-        const struct pel_parallax parallax =
-            pel_parallax_between(cameras, seen->render.width, seen->render.height);
+        const struct pel_parallax parallax = pel_parallax_between(cameras, &seen->render);
         pel_depth_from_distance(depth, &cameras[0], &seen->render);
         good = pel_reproject(&second, holes, &first, depth, &parallax);
     }

@@ -99,6 +99,13 @@ static bool change_eyes(struct pel_state *state, enum pel_action action) {
         state->scene->stereo.swap = !state->scene->stereo.swap;
         pel_state_change(state, "exchange the eyes");
         return true;
+    case PEL_ACTION_REPROJECT:
+        state->scene->stereo.reproject = !state->scene->stereo.reproject;
+        pel_state_say(state, state->scene->stereo.reproject
+                                 ? "the second eye comes from the first one's picture"
+                                 : "both eyes are rendered");
+        pel_state_change(state, "reprojection");
+        return true;
     case PEL_ACTION_NARROWER:
     case PEL_ACTION_WIDER:
         scale_length(state, true, action == PEL_ACTION_WIDER ? 1.1 : 1 / 1.1);

@@ -29,8 +29,8 @@ void pel_film_take_back(struct pel_state *state);
 void pel_film_set(struct pel_state *state, const struct pel_keyframe *keyframes, int count,
                   double fps);
 
-// Sees to it that a still of the scene, which shows a frame of its animation, is seen by its camera:
-// true when the frame is, or when a keyframe is that becomes the frame.
+// Sees to it that a still of the scene, which shows a frame of its animation, is seen by its
+// camera: true when the frame is, or when a keyframe is that becomes the frame.
 bool pel_film_settle(struct pel_scene *scene);
 
 // Begins to play where the film is, from its begin when it is at its end, and pauses.

@@ -169,4 +169,6 @@ void pel_panel_stereo(struct pel_state *state) {
         pel_panel_changed(state, "exchange the eyes");
     if (pel_widget_check("turn the cameras inwards", &stereo->toe_in))
         pel_panel_changed(state, "toe-in");
+    if (pel_widget_check("second eye from the first one's picture", &stereo->reproject))
+        pel_panel_changed(state, "reprojection");
 }

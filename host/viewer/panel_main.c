@@ -146,7 +146,7 @@ static void draw_messages(struct pel_state *state) {
         pel_widget_box(low, high, 0xFFE0A040, true);
         // New kernels and volumes come before the first ray.
         if (!(state->status.finished > 0))
-            draw_line(state, 2, 0xFFE0A040, "preparing: kernels are compiled, volumes sent");
+            draw_line(state, 2, 0xFFE0A040, "preparing: compiling, sending");
     }
     pel_widget_draw_over(false);
 }

@@ -225,6 +225,12 @@ static bool is_over(const struct pel_state *state) {
     return options->screenshot && options->frames == 0 && is_resting(state);
 }
 
+// So many pictures are shown that the same one is rendered again where nobody asks for another.
+static bool is_again_due(const struct pel_state *state) {
+    return state->options->frames > 0 && !state->quit && is_resting(state) &&
+           (!state->script || pel_script_is_over(state->script));
+}
+
 // A long frame's progress is drawn from time to time; drawing costs what rendering could use.
 static bool is_progress_due(const struct pel_state *state, bool was_busy) {
     bool ended = was_busy && !state->status.busy;
@@ -241,6 +247,8 @@ static enum pel_error loop(struct pel_state *state, char *sentence, size_t bytes
             pel_latency_begin_turn(state->latency, state);
         play_script(state);
         react_to_all(state);
+        if (is_again_due(state))
+            pel_state_renew(state);
         ask_for_picture(state);
         take_picture(state);
         pel_show_update(state);

@@ -134,9 +134,12 @@ static const struct kind *find_kind(const char *name, bool second) {
             return &kinds[i];
     const char *nearest = pel_text_nearest(name, pel_generator_names());
     if (nearest)
-        pel_fail(PEL_ERROR_ARGUMENT, "no generator '%s'; did you mean '%s'", name, nearest);
+        pel_fail(PEL_ERROR_ARGUMENT, "no generator '%.64s'; did you mean '%s'", name, nearest);
     else
-        pel_fail(PEL_ERROR_ARGUMENT, "no generator '%s'", name);
+        pel_fail(PEL_ERROR_ARGUMENT,
+                 "no generator '%.64s'; there are sphere, box, shells, c60, hydrogen, "
+                 "marschner-lobb, shepp-logan, head-ct, head-mri, head-labels and head-pair",
+                 name);
     return NULL;
 }
 

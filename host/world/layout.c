@@ -247,6 +247,7 @@ static bool has_live(const struct pel_scene *scene) {
 }
 
 // Whether gradients are found that a border of the bricks makes cheaper: kernels/gradient_brick.cl.
+// Hidden instances count, so that voxels need not travel again when they are shown.
 static bool border_pays(const struct pel_scene *scene) {
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];
@@ -255,7 +256,7 @@ static bool border_pays(const struct pel_scene *scene) {
                        instance->gradient_opacity_count > 0 || instance->silhouette.strength > 0;
         bool words =
             !volume->hypertexture && pel_voxel_class_bytes(pel_voxel_class(volume->type)) <= 2;
-        if (!instance->hidden && normals && words && instance->filter == PEL_FILTER_LINEAR &&
+        if (normals && words && instance->filter == PEL_FILTER_LINEAR &&
             instance->gradient == PEL_GRADIENT_CENTRAL)
             return true;
     }

@@ -25,7 +25,7 @@ int main(void) {
 }
 C
 # shellcheck disable=SC2046 # the flags are words
-${CC:-cc} "$tree/use.c" $(pkg-config --static --cflags --libs pellucid) -o "$tree/use"
+${CC:-cc} "$tree/use.c" $(pkg-config --cflags --libs pellucid) -o "$tree/use"
 [ "$("$tree/use")" = "$(pkg-config --modversion pellucid) 64" ]
 "$tree/there/bin/pellucid" generate box --size 8 -o "$tree/box.nrrd"
 "$tree/there/bin/pellucid" render "$tree/box.nrrd" --size 16x16 -o "$tree/box.png"

@@ -12,6 +12,10 @@ struct reference_row {
     const float (*rgba)[4];
     const float *depth;
     double shift, reach;
+    // Orthographic: what is at x goes to scale x + shift + slope z, and is lean x + fall z away
+    // there. What is empty goes where `empty` goes, behind everything.
+    bool orthographic;
+    double scale, slope, lean, fall, empty;
 };
 
 // The colour of pixel k of the second picture; false where a ray has to be cast.

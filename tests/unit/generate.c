@@ -345,6 +345,10 @@ static void test_refusals(void **state) {
         const char *message;
     } cases[] = {
         {"spere", {0}, "no generator 'spere'; did you mean 'sphere'"},
+        {"teapot",
+         {0},
+         "no generator 'teapot'; there are sphere, box, shells, c60, hydrogen, marschner-lobb, "
+         "shepp-logan, head-ct, head-mri, head-labels and head-pair"},
         {"sphere", {.size = -1}, "size -1 is outside 1..65536"},
         {"sphere", {.spacing_mm = -2}, "spacing -2 mm is not a positive number"},
         {"sphere", {.spacing_mm = NAN}, "spacing nan mm is not a positive number"},

@@ -17,6 +17,8 @@ xdotool key --repeat 31 --delay 5 z
 xdotool key x key Tab key v key v key Prior key t key l key m key bracketright
 xdotool mousemove --window "$window" 80 60 click 4
 xdotool keydown Right sleep 0.2 keyup Right key ctrl+z key ctrl+y
+# On, undone, and on again: of no effect on one eye.
+xdotool key shift+y key ctrl+z key shift+y
 saved scene.json
 xdotool key F12
 wait_for picture-001.png
@@ -30,6 +32,7 @@ import json
 scene = json.load(open("scene.json"))
 assert len(scene["volumes"]) == 2, scene
 assert "clip" in json.dumps(scene), "the cut was not saved"
+assert scene["stereo"]["reproject"], "the switch of reprojection was not saved"
 assert "mri" in json.dumps(scene["volumes"][0]), "reordering was not saved"
 ' || complain "scene.json is not what was made"
 exit $failed

@@ -19,6 +19,8 @@ expect 0 '' view "${small[@]}" --bare --script stereo.json --screenshot eyes.ppm
 
 # So many pictures, and the end.
 expect 0 '' view "${small[@]}" --bare --frames 1
+# More than a resting scene needs.
+expect 0 '' view "${small[@]}" --bare --frames 12
 
 # Real events: a drag turns, undo turns back.
 if open "${small[@]}" --bare; then
