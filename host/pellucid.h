@@ -932,8 +932,8 @@ struct pel_device_info {
     int compute_units;
     uint64_t memory_bytes, max_allocation_bytes, max_constant_bytes, local_bytes;
     bool images;            // 3-D images exist
-    size_t max_image[3];    // voxels
     bool gl_sharing;        // it can write buffers of OpenGL (cl_khr_gl_sharing)
+    size_t max_image[3];    // voxels
     int native_float_width; // lanes of the device's vectors
     size_t max_work_group;
     // What Pellucid would choose for it.

@@ -170,6 +170,10 @@ int command_generate(int argc, char **argv) {
         return list(pel_generator_names());
     if (hypertexture && !arguments.recipe)
         return list(pel_recipe_presets());
+    for (int i = 0; !hypertexture && pel_recipe_presets()[i]; i++)
+        if (strcmp(arguments.kind, pel_recipe_presets()[i]) == 0)
+            return cli_fail(PEL_ERROR_ARGUMENT, "'%s' is a hypertexture: generate hypertexture %s",
+                            arguments.kind, arguments.kind);
     if (!arguments.output)
         return cli_fail(PEL_ERROR_ARGUMENT, "-o FILE is missing: where should the volume go?");
     struct pel_volume *volume =

@@ -82,7 +82,8 @@ static void print_values(const struct pel_volume *volume, const struct pel_stati
     print_sketch(statistics->histogram);
     if (!volume->labels && pel_volume_seems_labels(volume)) {
         begin_line(indent, "perhaps");
-        printf("a label map: --labels, or \"labels\": true in a scene, takes it as one\n");
+        printf("a label map: --labels takes it as one, and --set volumes.0.labels=true of render "
+               "and view\n");
     }
 }
 

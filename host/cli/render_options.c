@@ -77,9 +77,10 @@ static const struct argp_option argp_options[] = {
     {"alpha", KEY_ALPHA, "straight|premultiplied", 0, "How a PNG's colours are written", 0},
     {"background", KEY_BACKGROUND, "COLOUR", 0,
      "A name such as white or none, #rrggbb, or r,g,b[,a] from 0 to 1", 0},
-    {"frames", KEY_FRAMES, "FIRST:END[:STRIDE]|N|all", 0,
-     "Render these frames of the scene's animation, END not included, to pictures "
-     "(-o frame_%04d.png) or to a video (-o turn.mp4, .webm, .mkv or .gif, through ffmpeg)",
+    {"frames", KEY_FRAMES, "FIRST:END", 0,
+     "Render these frames of the scene's animation, END not included (or FIRST:END:STRIDE, N for "
+     "the first N, all), to pictures (-o frame_%04d.png) or to a video (-o turn.mp4, .webm, .mkv "
+     "or .gif, through ffmpeg)",
      0},
     {"frame", KEY_FRAME, "N", 0, "Render this frame alone", 0},
     {"fps", KEY_FPS, "X", 0, "Frames per second", 0},
@@ -491,6 +492,8 @@ int render_options_parse(struct render_options *options, int argc, char **argv) 
     error_t status = argp_parse(&argp, argc, argv, 0, NULL, options);
     if (!status && options->frames && options->frame >= 0)
         return cli_fail(PEL_ERROR_ARGUMENT, "--frame and --frames cannot be combined");
+    if (!status && options->frames && options->probe)
+        return cli_fail(PEL_ERROR_ARGUMENT, "--pixel is of one frame: take --frame");
     return status;
 }
 

@@ -53,8 +53,8 @@ bool pel_buffer_write(struct pel_buffer *buffer, size_t offset, size_t bytes, co
 bool pel_buffer_read(struct pel_buffer *buffer, size_t offset, size_t bytes, void *data);
 
 // A buffer of OpenGL, whose store must stay as it is until this is destroyed. Kernels may use it
-// between acquiring and releasing only, and OpenGL at all other times only; both wait until what
-// was enqueued before is done.
+// between acquiring and releasing only, and OpenGL at all other times only: it is done with the
+// buffer before that is acquired, and releasing waits for everything that was enqueued.
 struct pel_buffer *pel_buffer_share(struct pel_device *device, uint32_t gl_buffer);
 bool pel_buffer_acquire(struct pel_buffer *buffer);
 bool pel_buffer_release(struct pel_buffer *buffer);

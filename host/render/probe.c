@@ -13,6 +13,7 @@
 #include "base/math.h"
 #include "base/memory.h"
 #include "shared/probe.h"
+#include "world/model.h"
 
 static_assert(PEL_PROBE_SAMPLE_MAX == PROBE_SAMPLE_MAX, "there is room for all samples");
 
@@ -167,6 +168,15 @@ static bool run_kernel(struct record *record, const struct pel_probe_inputs *inp
     pel_buffer_destroy(ray);
     pel_kernel_destroy(kernel);
     return good;
+}
+
+bool pel_probe_check(const struct pel_scene *scene, int x, int y) {
+    if (x < 0 || y < 0 || x >= scene->render.width || y >= scene->render.height)
+        return pel_fail(PEL_ERROR_ARGUMENT, "pixel %d,%d is outside the picture of %d x %d", x, y,
+                        scene->render.width, scene->render.height);
+    return pel_model_kernel(scene) != MODELS_EMISSION ||
+           pel_fail(PEL_ERROR_UNSUPPORTED,
+                    "model emission is integrated exactly and takes no samples to tell of");
 }
 
 bool pel_probe_run(const struct pel_probe_inputs *inputs, int x, int y, struct pel_probe *probe) {

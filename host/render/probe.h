@@ -17,6 +17,9 @@ struct pel_probe_inputs {
     const struct pel_world *world;
 };
 
+// Fails for a pixel outside the picture (ARGUMENT), and where no samples are taken (UNSUPPORTED).
+bool pel_probe_check(const struct pel_scene *scene, int x, int y);
+
 // Follows the ray through the centre of pixel (x, y). False (DEVICE, MEMORY, BUILD), and nothing in
 // `probe`, on failure.
 bool pel_probe_run(const struct pel_probe_inputs *inputs, int x, int y, struct pel_probe *probe);

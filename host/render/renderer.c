@@ -418,9 +418,8 @@ void pel_renderer_forget_gl(struct pel_renderer *renderer, uint32_t gl_buffer) {
 bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *scene, int x, int y,
                         struct pel_probe *probe) {
     *probe = (struct pel_probe){0};
-    if (x < 0 || y < 0 || x >= scene->render.width || y >= scene->render.height)
-        return pel_fail(PEL_ERROR_ARGUMENT, "pixel %d,%d is outside the picture of %d x %d", x, y,
-                        scene->render.width, scene->render.height);
+    if (!pel_probe_check(scene, x, y))
+        return false;
     struct pel_scene seen;
     if (!pel_bakery_show(&renderer->bakery, renderer->device, scene, &seen) ||
         !pel_detail_show(&renderer->detail, &seen, NULL))

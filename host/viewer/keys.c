@@ -157,7 +157,7 @@ static const struct pel_key_row rows[] = {
     {"Comparing", "b", "next way to compare; with Shift: the one before"},
     {"Stereo", "z", "next kind; with Shift: the one before"},
     {NULL, "y", "exchange the eyes"},
-    {NULL, "shift+y", "second eye from the first one's picture, or its own"},
+    {NULL, "Shift + y", "second eye from the first one's picture, or its own"},
     {NULL, ", .", "eyes nearer to each other, further apart"},
     {NULL, "Shift + , Shift + .", "convergence nearer, farther"},
     {"Quality", "u", "rays per pixel: 1, 4, 9, 16"},

@@ -1,11 +1,14 @@
 // panel_main.c - the panels as a whole: the column on the left, the list of keys, messages.
 #include <stdio.h>
+#include <string.h>
 
 #include "viewer/panel.h"
 #include "viewer/panels.h"
 
 // Of a message, and of a frame before its progress is worth showing.
 static const double message_ms = 6000, long_ms = 400;
+// Of a sentence that is longer than the window is wide.
+enum { MESSAGE_LINES = 6 };
 
 bool pel_panels_exist(void) {
     return true;
@@ -132,12 +135,49 @@ static void draw_line(const struct pel_state *state, int line, uint32_t colour, 
     pel_widget_write(at, colour, text);
 }
 
+// How many bytes of the text fit beside the panels: up to a space, or all of a lone word.
+static size_t fitting(const struct pel_state *state, const char *text) {
+    double room = state->windows[0].pixels[0] - column_width(state) - 40;
+    size_t fits = 0;
+    char part[512];
+    for (size_t end = 0; text[end] && end + 1 < sizeof part;) {
+        end += strspn(text + end, " ");
+        end += strcspn(text + end, " ");
+        snprintf(part, sizeof part, "%.*s", (int)end, text);
+        if (fits > 0 && pel_widget_text_width(part) > room)
+            break;
+        fits = end;
+    }
+    return fits;
+}
+
+// A sentence, in as many lines as it takes, above `line` others. Returns how many lie below then.
+static int draw_sentence(const struct pel_state *state, int line, uint32_t colour,
+                         const char *text) {
+    const char *parts[MESSAGE_LINES];
+    size_t bytes[MESSAGE_LINES];
+    int count = 0;
+    while (*text && count < MESSAGE_LINES) {
+        text += strspn(text, " ");
+        parts[count] = text;
+        bytes[count] = fitting(state, text);
+        text += bytes[count++];
+    }
+    for (int i = 0; i < count; i++) {
+        char part[512];
+        snprintf(part, sizeof part, "%.*s", (int)bytes[i], parts[i]);
+        draw_line(state, line + count - 1 - i, colour, part);
+    }
+    return line + count;
+}
+
 static void draw_messages(struct pel_state *state) {
+    int line = 0;
     pel_widget_draw_over(true);
     if (state->message[0] && state->now_ms - state->message_ms < message_ms)
-        draw_line(state, 0, 0xFFFFFFFF, state->message);
+        line = draw_sentence(state, line, 0xFFFFFFFF, state->message);
     if (state->status.sentence[0])
-        draw_line(state, 1, 0xFF8080FF, state->status.sentence);
+        line = draw_sentence(state, line, 0xFF8080FF, state->status.sentence);
     if (state->status.busy && state->status.running_ms > long_ms) {
         const struct pel_pane_window *window = &state->windows[0];
         double left = column_width(state), width = window->pixels[0] - left;
@@ -146,7 +186,7 @@ static void draw_messages(struct pel_state *state) {
         pel_widget_box(low, high, 0xFFE0A040, true);
         // New kernels and volumes come before the first ray.
         if (!(state->status.finished > 0))
-            draw_line(state, 2, 0xFFE0A040, "preparing: compiling, sending");
+            draw_line(state, line, 0xFFE0A040, "preparing: compiling, sending");
     }
     pel_widget_draw_over(false);
 }

@@ -90,7 +90,6 @@ struct pel_state {
     struct pel_pane_window windows[PEL_WALL_MAX];
     int window_count;
     struct pel_worker *worker;
-    bool sharing;                       // windows share their OpenGL objects
     struct pel_lender *lender;          // of buffers that the worker shares with OpenGL, or NULL
     char unshared[PEL_GL_REASON_BYTES]; // why there is none
 
@@ -135,6 +134,7 @@ struct pel_state {
     int shown_count;             // pictures so far
     int shared_count;            // and those of them that came through shared buffers
     bool redraw;                 // the windows must be drawn again
+    bool sharing;                // they share their OpenGL objects
 
     char message[PEL_STATE_SENTENCE]; // to the user
     double message_ms;                // when it was said

@@ -85,7 +85,8 @@ bool pel_model_check(const struct pel_scene *scene) {
                         settings->emission_scale);
     if (settings->mixing == PEL_MIX_ORDERED && pel_model_kernel(scene) != 0)
         return pel_fail(PEL_ERROR_ARGUMENT,
-                        "mixing ordered is for volumes of model absorption, front to back");
+                        "mixing ordered is for volumes of model absorption, front to back and not "
+                        "pre-integrated");
     const struct pel_instance *other = NULL;
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];

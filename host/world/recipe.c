@@ -47,9 +47,13 @@ static bool compile_preset(struct recipe *program, const char *name) {
             return compile_text(program, file->text, strlen(file->text), file->name);
     }
     const char *nearest = pel_text_nearest(name, names);
-    return nearest
-               ? pel_fail(PEL_ERROR_ARGUMENT, "no recipe '%s'; did you mean '%s'", name, nearest)
-               : pel_fail(PEL_ERROR_ARGUMENT, "no recipe '%s'", name);
+    if (nearest)
+        return pel_fail(PEL_ERROR_ARGUMENT, "no recipe '%s'; did you mean '%s'", name, nearest);
+    char list[256] = "";
+    for (size_t i = 0, used = 0; names[i] && used < sizeof list; i++)
+        used += (size_t)snprintf(list + used, sizeof list - used, " %s", names[i]);
+    return pel_fail(PEL_ERROR_ARGUMENT, "no recipe '%s', there are%s, and files, *.json", name,
+                    list);
 }
 
 bool pel_recipe_compile(struct recipe *program, const char *recipe) {

@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "world/animation.h"
+#include "world/remark.h"
 #include "world/scene.h"
 #include "world/scene_source.h"
 
@@ -72,8 +73,10 @@ static struct pel_scene *build(const struct pel_scene_document *document, const 
     if (!scene)
         return NULL;
     scene->source = pel_scene_source_create(document, root);
-    if (scene->source && read_frame(scene, NULL, NULL))
+    if (scene->source && read_frame(scene, NULL, NULL)) {
+        pel_scene_remark(scene);
         return scene;
+    }
     pel_scene_destroy(scene);
     return NULL;
 }
@@ -140,8 +143,9 @@ struct pel_scene *pel_scene_from_files(const char *const *paths, int path_count,
         return load_json(paths[0], overrides, override_count);
     for (int i = 0; i < path_count; i++) {
         if (pel_path_has_extension(paths[i], ".json")) {
-            pel_fail(PEL_ERROR_ARGUMENT, "%s: a scene cannot be combined with other files",
-                     paths[i]);
+            pel_fail(PEL_ERROR_ARGUMENT,
+                     "%s: a scene cannot be combined with other files like '%s'", paths[i],
+                     paths[i == 0]);
             return NULL;
         }
     }

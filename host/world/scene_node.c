@@ -209,6 +209,14 @@ bool pel_node_check_list(const struct pel_scene_node *node, size_t least, size_t
     return pel_node_fail(node, "must have %zu to %zu elements, not %zu", least, most, count);
 }
 
+// The first name that a text is a part of.
+static const char *find_part(const char *text, const char *const *names) {
+    for (int i = 0; *text && names[i]; i++)
+        if (strstr(names[i], text))
+            return names[i];
+    return NULL;
+}
+
 bool pel_node_check_name(const struct pel_scene_node *node, const char *const *names, int *which) {
     if (!json_is_string(node->value))
         return fail_kind(node, "a text");
@@ -233,6 +241,8 @@ bool pel_node_check_name(const struct pel_scene_node *node, const char *const *n
         snprintf(list + used, sizeof list - used, "%s%s", between, names[i]);
     }
     const char *nearest = shown < count ? pel_text_nearest(text, names) : NULL;
+    if (!nearest && shown < count)
+        nearest = find_part(text, names);
     if (nearest)
         return pel_node_fail(node, "must be %s, not \"%.*s\"; did you mean '%s'", list, VALUE_BYTES,
                              text, nearest);

@@ -162,6 +162,8 @@ expect 0 '^spans    1$' render data/box.nii.gz "${small[@]}" --pixel 16,12
 expect 0 '' render data/box.nii.gz "${small[@]}" --pixel 16,12 --json
 check_json 'x["pixel"] == [16, 12] and x["samples"] and x["spans"][0]["volumes"] == ["box.nii.gz"]'
 expect 2 '^pellucid: pixel 32,12 is outside the picture of 32 x 24' render data/box.nii.gz "${small[@]}" --pixel 32,12
+expect 2 '^pellucid: --pixel is of one frame' render data/box.nii.gz --frames 3 --pixel 3,3
+expect 8 '^pellucid: model emission is integrated exactly' render data/box.nii.gz --model emission --pixel 3,3
 expect 2 "^pellucid: --pixel: '3' is not of the form X,Y" render data/box.nii.gz --pixel 3
 
 # Before anything is rendered: names nobody knows, folders that are not there, the input itself.

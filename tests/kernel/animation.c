@@ -18,6 +18,9 @@ static void test_stills(void **state) {
         test_load_scene("film.json",
                         SCENE ", 'animation': {'frames': 5, 'tracks': ["
                               "{'key': 'camera.fov', 'values': [20, 40]},"
+                              "{'key': 'clip', 'values': ["
+                              "  [{'plane': {'normal': [1, 0, 0], 'point': [-60, 0, 0]}}],"
+                              "  [{'plane': {'normal': [1, 0, 0], 'point': [20, 0, 0]}}]]},"
                               "{'key': 'volumes.0.density', 'values': [0.5, 1.5]},"
                               "{'key': 'volumes.0.transform', 'values': ["
                               "  {'rotate': {'axis': 'z', 'degrees': 0}},"
@@ -26,10 +29,12 @@ static void test_stills(void **state) {
     static const char *const stills[] = {
         "{'volumes': [{'generate': {'kind': 'head-ct', 'size': 16}, 'transfer': 'ct-bone',"
         "  'density': 0.75, 'transform': {'rotate': {'axis': 'z', 'degrees': 22.5}}}],"
-        " 'render': {'size': [24, 16], 'step': 1}, 'camera': {'view': 'left', 'fov': 25}}",
+        " 'render': {'size': [24, 16], 'step': 1}, 'camera': {'view': 'left', 'fov': 25},"
+        " 'clip': [{'plane': {'normal': [1, 0, 0], 'point': [-40, 0, 0]}}]}",
         "{'volumes': [{'generate': {'kind': 'head-ct', 'size': 16}, 'transfer': 'ct-bone',"
         "  'density': 1.25, 'transform': {'rotate': {'axis': 'z', 'degrees': 67.5}}}],"
-        " 'render': {'size': [24, 16], 'step': 1}, 'camera': {'view': 'left', 'fov': 35}}"};
+        " 'render': {'size': [24, 16], 'step': 1}, 'camera': {'view': 'left', 'fov': 35},"
+        " 'clip': [{'plane': {'normal': [1, 0, 0], 'point': [0, 0, 0]}}]}"};
     struct pel_image *first = NULL;
     for (int frame = 1; frame < 4; frame += 2) {
         struct pel_scene *still = test_load_scene("still.json", stills[frame / 2], NULL);

@@ -24,12 +24,18 @@ static struct pel_scene *load_small(const char *name) {
                            "volumes.*.generate.spacing=4"};
     // Volumes with a spacing of their own keep their size in millimetres.
     int small_count = strstr(name, "level-of-detail") ? 4 : 3;
-    // Those without generated volumes have smaller hypertextures.
-    if (strstr(name, "hypertexture"))
+    // Those with hypertextures have smaller ones.
+    if (strstr(name, "hypertexture-head"))
+        small[2] = "volumes.boiling.hypertexture.size=8";
+    else if (strstr(name, "hypertexture"))
         small[2] = "volumes.*.hypertexture.size=8";
     const char *normal[] = {"render.size=[64,48]"};
-    struct pel_scene *scene = scene_is_small() ? pel_scene_load(path, small, small_count)
-                                               : pel_scene_load(path, normal, 1);
+    // The reference takes a minute for 32 volumes in one place, and so does an interpreter.
+    bool is_small = scene_is_small() || strstr(name, "overlapping-32");
+    if (strstr(name, "overlapping-32"))
+        small[0] = "render.size=[8,6]";
+    struct pel_scene *scene =
+        is_small ? pel_scene_load(path, small, small_count) : pel_scene_load(path, normal, 1);
     if (!scene)
         fail_msg("%s", pel_error_message());
     return scene;
@@ -54,12 +60,12 @@ static void check_saved(struct pel_renderer *renderer, const struct pel_scene *s
 // voxels of it; live.c compares baked ones. And a sample within rounding of the face between two
 // voxels may take either: the model of the thesis weighs one sample more than the judge allows for.
 static bool is_beyond_judging(const struct pel_scene *scene) {
-    bool thesis = scene->render.model == PEL_MODEL_THESIS, beyond = false;
+    bool baked = false, nearest = false;
     for (int i = 0; i < scene->volume_count; i++)
-        beyond |= !scene->volumes[i]->voxels;
+        baked |= !scene->volumes[i]->voxels && !scene->sources[i].hypertexture.live;
     for (int k = 0; k < scene->instance_count; k++)
-        beyond |= scene->instances[k].filter == PEL_FILTER_NEAREST;
-    return thesis && beyond;
+        nearest |= scene->instances[k].filter == PEL_FILTER_NEAREST;
+    return baked || (nearest && scene->render.model == PEL_MODEL_THESIS);
 }
 
 // One scene, read through buffers, and through images unless `images` is NULL.
@@ -77,7 +83,7 @@ static void check_scene(struct pel_renderer *buffers, struct pel_renderer *image
         check_saved(buffers, scene, picture, name);
     pel_image_destroy(picture);
     assert_true(statistics.samples > 0);
-    if (images)
+    if (images && !is_beyond_judging(scene))
         pel_image_destroy(judge_render(images, scene, &statistics, name));
     pel_scene_destroy(scene);
 }

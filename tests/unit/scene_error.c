@@ -86,6 +86,9 @@ static const struct {
      "bad.json:1:13: stereo.convergence: must be above 0 and at most 1e+09, not 0"},
     {"{'stereo': {'convergence': 'auto'}, " TEST_VOLUMES "}",
      "bad.json:1:13: stereo.convergence: must be automatic, not \"auto\""},
+    {"{'stereo': {'kind': 'dubois'}, " TEST_VOLUMES "}",
+     "bad.json:1:13: stereo.kind: must be one of 31 names such as none, true-red-cyan, "
+     "true-green-magenta or true-amber-blue, not \"dubois\"; did you mean 'dubois-red-cyan'"},
     {"{'stereo': {'kind': 'matrix'}, " TEST_VOLUMES "}",
      "bad.json:1:2: stereo: kind \"matrix\" needs 'matrix'"},
     {"{'stereo': {'matrix': [[1], [1], [1]]}, " TEST_VOLUMES "}",
@@ -248,7 +251,8 @@ static void test_bad_files(void **state) {
     assert_memory_equal(pel_error_message(), "none.nii: ", 10);
     assert_int_equal(pel_error_code(), PEL_ERROR_FILE);
     assert_null(pel_scene_from_files((const char *[]){"a.json", "b.nii"}, 2, NULL, 0));
-    assert_string_equal(pel_error_message(), "a.json: a scene cannot be combined with other files");
+    assert_string_equal(pel_error_message(),
+                        "a.json: a scene cannot be combined with other files like 'b.nii'");
     assert_null(pel_scene_from_files(NULL, 0, NULL, 0));
     assert_string_equal(pel_error_message(), "0 files, outside 1..32");
     assert_null(pel_scene_from_files((const char *[]){"\xff.nii"}, 1, NULL, 0));

@@ -268,8 +268,8 @@ static cl_int CL_API_CALL set_argument(cl_kernel kernel, cl_uint index, size_t b
                                        const void *value) {
     pthread_mutex_lock(&mutex);
     cl_mem memory = NULL;
-    if (value && bytes == sizeof memory)
-        memcpy(&memory, value, sizeof memory);
+    if (value && bytes == sizeof(cl_mem))
+        memcpy(&memory, value, sizeof(cl_mem));
     struct argument *place = NULL;
     for (int i = 0; i < ARGUMENTS; i++) {
         if (arguments[i].kernel == kernel && arguments[i].index == index)
@@ -329,7 +329,7 @@ static cl_int CL_API_CALL get_device_info(cl_device_id device, cl_device_info ke
     if (!list)
         return CL_OUT_OF_HOST_MEMORY;
     target->clGetDeviceInfo(device, key, length, list, NULL);
-    strcat(list, extension);
+    memcpy(list + strlen(list), extension, sizeof extension);
     length = strlen(list) + 1;
     if (used)
         *used = length;
@@ -362,11 +362,11 @@ static cl_int CL_API_CALL get_gl_context_info(const cl_context_properties *prope
     if (!fault("device"))
         target->clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 16, ids, &count);
     if (used)
-        *used = count * sizeof *ids;
-    if (value && bytes < count * sizeof *ids)
+        *used = count * sizeof(cl_device_id);
+    if (value && bytes < count * sizeof(cl_device_id))
         return CL_INVALID_VALUE;
     if (value)
-        memcpy(value, ids, count * sizeof *ids);
+        memcpy(value, ids, count * sizeof(cl_device_id));
     return CL_SUCCESS;
 }
 
