@@ -148,9 +148,7 @@ uint64_t pel_device_uploaded_bytes(const struct pel_device *device) {
 
 static cl_int wait(struct pel_device *device) {
     device->busy = false;
-    // A flushed queue looks empty to rusticl of Mesa 22.3, whose clFinish then does not wait.
-    cl_int status = clEnqueueMarkerWithWaitList(device->queue, 0, NULL, NULL);
-    return status == CL_SUCCESS ? clFinish(device->queue) : status;
+    return clFinish(device->queue);
 }
 
 bool pel_device_finish(struct pel_device *device) {
