@@ -1,11 +1,12 @@
 // even.cl - what the ray loop makes of stride.cl where samples are evenly spaced: every run is one sample.
+// Included by render.cl.
 #ifndef EVEN_CL
 #define EVEN_CL
 
 #define STRIDE_PARAMETER
 #define STRIDE_ARGUMENT
 #define BEGIN_STRIDES(crossing)
-#define COUNT_SPARED(crossing, length, present)
+#define COUNT_SPARED(crossing, length, present) (void)(length)
 #define SPARED(crossing) 0u
 #define RUN_LAST(i, length) (i)
 #define RUN_NEXT(i, length, alive) ((i) - (alive))

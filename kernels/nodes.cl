@@ -1,4 +1,5 @@
-// nodes.cl - from the empty cells of a part to those of an octree's nodes (occupancy.cl, which includes this).
+// nodes.cl - from the empty cells of a part to those of an octree's nodes.
+// Included by occupancy.cl.
 #ifndef NODES_CL
 #define NODES_CL
 

@@ -3,7 +3,9 @@
 // The samples of a ray go in runs of one, two or four, and one sample in the middle of a run stands for all of it. A run
 // begins where its length divides its first sample's number, and it is as long as all parts there allow: each has a byte
 // for every cell (stride_cells.cl), of which those of the first and the last sample are asked, and none begins or ends
-// within a run. So the runs of a ray are the same whatever is skipped and whichever rays share its packet. See docs/picture.md, "Adaptive steps". Included by span.cl.
+// within a run. So the runs of a ray are the same whatever is skipped and whichever rays share its packet. See
+// docs/picture.md, "Adaptive steps".
+// Included by span.cl.
 #ifndef STRIDE_CL
 #define STRIDE_CL
 

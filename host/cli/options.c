@@ -41,6 +41,14 @@ bool cli_number(const char *option, const char *text, double *value) {
     return false;
 }
 
+void cli_print_number(char text[CLI_NUMBER_BYTES], double value) {
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, CLI_NUMBER_BYTES, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            break;
+    }
+}
+
 // Reads a decimal integer and moves `*text` behind it.
 static bool read_integer(const char **text, int least, int *value) {
     char *end;

@@ -35,6 +35,10 @@ void cli_show_warnings(bool show);
 bool cli_number(const char *option, const char *text, double *value);
 bool cli_integer(const char *option, const char *text, int least, int *value);
 
+// Prints a number with no more digits than it needs, as messages and pictures repeat it.
+enum { CLI_NUMBER_BYTES = 32 };
+void cli_print_number(char text[CLI_NUMBER_BYTES], double value);
+
 // Reads `count` positive integers with an 'x' between them: "640x480".
 bool cli_sizes(const char *option, const char *text, int count, int *values);
 

@@ -194,14 +194,9 @@ static bool add_number(struct render_options *options, const char *option, const
     double value;
     if (!cli_number(option, text, &value))
         return false;
-    // Printed anew, because strtod reads more spellings than JSON has; with no more digits than the
-    // number needs, as messages and pictures repeat it.
-    char number[32];
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(number, sizeof number, "%.*g", digits, value);
-        if (strtod(number, NULL) == value)
-            break;
-    }
+    // Printed anew, because strtod reads more spellings than JSON has.
+    char number[CLI_NUMBER_BYTES];
+    cli_print_number(number, value);
     overrides_add(&options->overrides, key, number);
     return true;
 }

@@ -109,8 +109,8 @@ bool pel_kernel_launch(struct pel_kernel *kernel, size_t count, size_t group) {
                                            &group, 0, NULL, NULL);
     if (status != CL_SUCCESS)
         return pel_opencl_fail(status, "launching a kernel");
-    // Not flushed: rusticl of Mesa 22.3 takes a flushed queue for an empty one, and its clFinish does
-    // not wait for it.
+    // Not flushed: rusticl of Mesa 22.3 takes a flushed queue for an empty one, and its clFinish
+    // does not wait for it.
     kernel->device->busy = true;
     return true;
 }

@@ -5,8 +5,8 @@
 // nothing can be seen. A block of which no bin of values can be seen is left at once. Behind a
 // block the ray is in one that lies beside it and is known to it, or in none; only then is the
 // hierarchy searched again, whose nodes are culled by their bins. A cursor keeps where its ray
-// leaves a sub-block with something in it, and until then there is nothing to do. Included by
-// span.cl.
+// leaves a sub-block with something in it, and until then there is nothing to do.
+// Included by span.cl.
 #ifndef BLOCKS_CL
 #define BLOCKS_CL
 

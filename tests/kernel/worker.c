@@ -138,7 +138,8 @@ static void test_failures(void **state) {
     (void)state;
     struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
     struct pel_image *expected = render(scene);
-    // With packets the device's own numbers take less than the picture, which is asked for after them.
+    // With packets the device's own numbers take less than the picture, which is asked for after
+    // them.
     struct pel_renderer_options options = {.device = NULL, .lanes = 4};
     struct pel_worker *worker = make_worker(&options);
     char sentence[PEL_WORKER_SENTENCE];
