@@ -40,7 +40,8 @@ bool pel_tiles_run(struct pel_pace *pace, struct pel_device *device, struct pel_
     double batch = pace->tiles_per_ms > 0 ? pace->tiles_per_ms * batch_ms / 4 : FIRST_BATCH;
     for (size_t tile = 0; tile < tiling->tiles;) {
         size_t left = tiling->tiles - tile;
-        size_t count = batch < 1 ? 1 : batch < (double)left ? (size_t)batch : left;
+        // A little that would be left alone keeps fewer threads busy than it needs.
+        size_t count = batch < 1 ? 1 : 1.25 * batch < (double)left ? (size_t)batch : left;
         if (pace->tile_ms)
             count = 1;
         count = round_up(count, tiling->tiles_per_group);
