@@ -49,11 +49,8 @@ INLINE struct runs runs_begin(void) {
 // How long a run may be that has sample i of a part, as far as the sample's cell knows.
 INLINE integer cell_run(__constant struct part *part, __global const uchar *strides,
                         const struct cursor *cursor, integer i) {
-    const real t = TO_REAL(cursor_clamp(cursor, i));
-    const integer cx = TO_INTEGER(cursor->ox + t * cursor->dx) >> CELL_BITS,
-                  cy = TO_INTEGER(cursor->oy + t * cursor->dy) >> CELL_BITS,
-                  cz = TO_INTEGER(cursor->oz + t * cursor->dz) >> CELL_BITS;
-    const integer cell = cz * part->cell_slice + cy * part->cell_row + cx + (int)part->cells;
+    const struct place place = cursor_place(cursor, i);
+    const integer cell = place_cell(part, &place);
     return TO_INTEGER(GATHER(uchar, LOAD_STRIDE, cell));
 }
 
