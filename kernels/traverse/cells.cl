@@ -3,7 +3,8 @@
 //
 // To look into another cell costs a quarter of a sample, so a packet leaps on until one of its rays
 // has come to something, and takes its next sample there. Samples stay where they are, so the
-// picture is the same. Included by span.cl.
+// picture is the same.
+// Included by span.cl.
 #ifndef CELLS_CL
 #define CELLS_CL
 
