@@ -14,6 +14,11 @@
 
 #include "pellucid.h"
 
+// cmocka 2 calls it so and warns of the older name, which is all that cmocka 1 has.
+#ifndef assert_int_in_range
+#define assert_int_in_range assert_in_range
+#endif
+
 // The path of a file below $PELLUCID_TEST_DATA (default: ../shared beside the repository). The text
 // is overwritten by the eighth call after this one.
 const char *test_data_path(const char *relative);
