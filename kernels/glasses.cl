@@ -1,13 +1,15 @@
-// glasses.cl - what both eyes see as one colour, through a pair of coloured glasses (docs/stereo.md, "Anaglyphs").
+// glasses.cl - what both eyes see as one colour, through a pair of coloured glasses
+// (docs/stereo.md, "Anaglyphs").
 //
-// A matrix makes red, green and blue of those of both eyes, in linear light or of values as they are stored.
-// host/output/anaglyph.c does the same to two pictures.
+// A matrix makes red, green and blue of those of both eyes, in linear light or of values as they
+// are stored. host/output/anaglyph.c does the same to two pictures.
 //
-// A packet is merged four lanes at a time. Some thirty multiplications close together in registers of 256 bits or
-// more make an Intel core take a lower clock for the next half a millisecond, and a packet is merged every few
-// microseconds: so whole frames ran at 2.4 GHz instead of the 2.7 of the ray loop, whose multiplications are farther
-// apart. In registers of 128 bits they may follow each other. Channels are taken in loops for the same reason: PoCL
-// joins three of them that are written out in wider registers.
+// A packet is merged four lanes at a time. Some thirty multiplications close together in registers
+// of 256 bits or more make an Intel core take a lower clock for the next half a millisecond, and a
+// packet is merged every few microseconds: so whole frames ran at 2.4 GHz instead of the 2.7 of the
+// ray loop, whose multiplications are farther apart. In registers of 128 bits they may follow each
+// other. Channels are taken in loops for the same reason: PoCL joins three of them that are written
+// out in wider registers.
 // Included by render.cl.
 #ifndef GLASSES_CL
 #define GLASSES_CL
@@ -33,8 +35,9 @@ union tinted {
     tint channels[4][TINTS];
 };
 
-// The curve of sRGB (IEC 61966-2-1) and its inverse for 0..1, within 1e-6. Their powers are polynomials, fitted at
-// Chebyshev's nodes within 4e-7: pow, log2 and even sqrt would make them ten times as expensive on a CPU.
+// The curve of sRGB (IEC 61966-2-1) and its inverse for 0..1, within 1e-6. Their powers are
+// polynomials, fitted at Chebyshev's nodes within 4e-7: pow, log2 and even sqrt would make them ten
+// times as expensive on a CPU.
 INLINE tint srgb_decode(tint value) {
     value = AT_MOST(AT_LEAST(value, (tint)(0.0f)), (tint)(1.0f));
     tint curve = 0.081870236f * value - 0.45162019f;
@@ -49,8 +52,8 @@ INLINE tint srgb_decode(tint value) {
     return CHOOSE(curve, value * (1.0f / 12.92f), MASK(value <= 0.04045f));
 }
 
-// Light is m 2^e, with m in 1..2. As e is a small whole number, 2^(e / 2.4) needs nothing of exp2 but its polynomial (that
-// of SLEEF).
+// Light is m 2^e, with m in 1..2. As e is a small whole number, 2^(e / 2.4) needs nothing of exp2
+// but its polynomial (that of SLEEF).
 INLINE tint srgb_encode(tint light) {
     light = AT_MOST(AT_LEAST(light, (tint)(0.0f)), (tint)(1.0f));
     const tint_integer bits = LANES_JOIN(lanes_as_int, TINT_LANES)(light);
@@ -70,14 +73,15 @@ INLINE tint srgb_encode(tint light) {
     scale = scale * rest + 0.69314718f;
     scale = scale * rest + 1.0f;
     const tint_integer shift = LANES_JOIN(lanes_convert_int, TINT_LANES)(whole) << 23;
-    scale = LANES_JOIN(lanes_as_float, TINT_LANES)(LANES_JOIN(lanes_as_int, TINT_LANES)(scale) + shift);
+    scale =
+        LANES_JOIN(lanes_as_float, TINT_LANES)(LANES_JOIN(lanes_as_int, TINT_LANES)(scale) + shift);
     curve = scale * curve - 0.055f;
     return CHOOSE(curve, 12.92f * light, MASK(light <= 0.0031308f));
 }
 
 // Adds to a sum what an eye sees, given straight, through its three columns of the matrix.
-INLINE void add_eye(struct tints *sum, __constant const float4 *columns, const struct tints *eye, tint straighten,
-                    int linear) {
+INLINE void add_eye(struct tints *sum, __constant const float4 *columns, const struct tints *eye,
+                    tint straighten, int linear) {
     const tint values[3] = {eye->r, eye->g, eye->b};
     for (int c = 0; c < 3; c++) {
         const tint value = linear ? eye->a * srgb_decode(values[c] * straighten) : values[c];
@@ -88,11 +92,13 @@ INLINE void add_eye(struct tints *sum, __constant const float4 *columns, const s
 }
 
 INLINE tint finish_channel(tint sum, tint straighten, tint opacity, int linear) {
-    return linear ? opacity * srgb_encode(sum * straighten) : AT_MOST(AT_LEAST(sum, (tint)(0.0f)), opacity);
+    return linear ? opacity * srgb_encode(sum * straighten)
+                  : AT_MOST(AT_LEAST(sum, (tint)(0.0f)), opacity);
 }
 
 // One colour of what the first and the second eye see. It covers what either eye's does.
-INLINE struct tints merge_tints(__constant struct world *world, const struct tints *first, const struct tints *second) {
+INLINE struct tints merge_tints(__constant struct world *world, const struct tints *first,
+                                const struct tints *second) {
     const tint zero = (tint)(0.0f);
     const int linear = world->merge_linear;
     // The reciprocals of opacities, which are 0 where there is nothing.
@@ -112,8 +118,8 @@ INLINE struct tints merge_tints(__constant struct world *world, const struct tin
 }
 
 // Stores the colours of a packet's lanes from `first` on.
-INLINE void store_tints(__constant struct world *world, __global float4 *picture, int left, int top, int first,
-                        const struct tints *tints) {
+INLINE void store_tints(__constant struct world *world, __global float4 *picture, int left, int top,
+                        int first, const struct tints *tints) {
     const int x = left + first % PACKET_W, y = top + first / PACKET_W, width = world->width;
 #if LANES == 1
     picture[y * width + x] = (float4)(tints->r, tints->g, tints->b, tints->a);
@@ -139,14 +145,14 @@ INLINE void store_tints(__constant struct world *world, __global float4 *picture
 }
 
 INLINE struct tints get_tints(const union tinted *tinted, int i) {
-    const struct tints tints = {tinted->channels[0][i], tinted->channels[1][i], tinted->channels[2][i],
-                                tinted->channels[3][i]};
+    const struct tints tints = {tinted->channels[0][i], tinted->channels[1][i],
+                                tinted->channels[2][i], tinted->channels[3][i]};
     return tints;
 }
 
 // Stores what the first and the second eye see in a packet as one colour.
-INLINE void store_merged(__constant struct world *world, __global float4 *picture, int left, int top,
-                         const struct light *first, const struct light *second) {
+INLINE void store_merged(__constant struct world *world, __global float4 *picture, int left,
+                         int top, const struct light *first, const struct light *second) {
     const bool seen = any_lane(MASK(first->a > 0.0f) | MASK(second->a > 0.0f));
     union tinted eyes[2] = {{*first}, {*second}};
     if (seen) {

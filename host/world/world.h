@@ -44,15 +44,17 @@ struct pel_world {
 };
 
 // Fills a world from a scene whose volumes lie as `layout` says. Tables that are in `memo` from a
-// frame before are not made anew. Fails (MEMORY, ARGUMENT) on
-// settings that cannot be: a camera without direction, a singular placement, more parts than
-// WORLD_PART_MAX.
+// frame before are not made anew. Fails (MEMORY, ARGUMENT, UNSUPPORTED) on settings that cannot be:
+// a camera without direction, a singular placement, more parts than WORLD_PART_MAX.
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout, struct pel_memo *memo);
 void pel_world_finish(struct pel_world *world);
 
 // Whether a pixel takes more than the one ray through its centre.
 bool pel_world_is_supersampled(const struct pel_supersampling *supersampling);
+
+// Lets the world be seen by the scene's camera. Fails (ARGUMENT) when it has no direction.
+bool pel_world_set_eye(struct pel_world *world, const struct pel_scene *scene);
 
 // Lets the world be seen by a second eye, too: EYES_BOTH, EYES_MERGED, or EYES_WOVEN, whose
 // picture's pixels are the second one's where weave[0] x + weave[1] y is odd. Fails (ARGUMENT) on a
@@ -74,6 +76,9 @@ int pel_world_eyes(const struct pel_world *world);
 int pel_world_pictures(const struct pel_world *world);
 int pel_world_across(const struct pel_world *world);
 int pel_world_planes(const struct pel_world *world);
+
+// Pixels of all pictures, depth not counted.
+size_t pel_world_pixels(const struct pel_world *world);
 
 // How many of the first bytes of world->bytes there are for a kernel to read.
 size_t pel_world_bytes(const struct pel_world *world);
