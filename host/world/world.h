@@ -2,6 +2,7 @@
 #ifndef PEL_WORLD_WORLD_H
 #define PEL_WORLD_WORLD_H
 
+#include "accel/bvh.h"
 #include "shared/recipe.h"
 #include "world/layout.h"
 #include "world/memo.h"
@@ -36,7 +37,9 @@ struct pel_world {
     bool probe;         // one ray is to write down what it meets
     double centre[3];   // world millimetres of the origin of the kernels' world
     int part_total;     // parts, with those of masks behind the ones that are shown
-    int instances[WORLD_PART_MAX]; // which instance of the scene each part is of
+    struct pel_box boxes[WORLD_PART_MAX]; // around each part, a little too large
+    double diagonals_mm[WORLD_PART_MAX];  // the longest line through each part
+    int instances[WORLD_PART_MAX];        // which instance of the scene each part is of
     int live[RECIPE_LIVE_MAX]; // volumes that are worked out at every sample, in the order of their
                                // recipes
     int live_count;
