@@ -185,7 +185,7 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (world->models & MODELS_EMISSION)
             pattern.filter = FILTERS_NEAREST;
         world->filters |= pattern.filter;
-        if (!pel_world_add_table(world, scene, layout, instance, &memo->tables[k], &pattern))
+        if (!pel_world_add_table(world, scene, layout, instance, memo, &pattern))
             return false;
         const struct pel_table *table = &memo->tables[k].table;
         if (!pel_lighting_fill_part(&pattern, instance, scene->volumes[instance->volume]) ||
@@ -272,9 +272,7 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     bool good = pel_world_build_tables(world, scene, memo);
     good = good && fill_instances(world, scene, layout, memo, centre) &&
            fill_masks(world, scene, layout, centre) && pel_secondary_fill(world, scene);
-    if (!good)
-        pel_world_finish(world);
-    else
+    if (good)
         pel_boxes_join(world);
     return good;
 }
@@ -290,11 +288,4 @@ void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {
 size_t pel_world_bytes(const struct pel_world *world) {
     int rows = world->cut_count + world->bytes.occlusion_count;
     return offsetof(struct world, cuts) + (size_t)rows * sizeof *world->bytes.cuts;
-}
-
-void pel_world_finish(struct pel_world *world) {
-    free(world->tables);
-    free(world->visible);
-    world->tables = world->visible = NULL;
-    world->table_words = world->visible_words = 0;
 }

@@ -10,14 +10,12 @@
 // One frame's constant data, and which kernel it needs.
 struct pel_world {
     struct world bytes;
-    u32 *tables; // owned; the words of all transfer functions, one after the other
-    size_t table_words;
-    u32 *visible; // owned; for each table, how many entries before each one can be seen
-    size_t visible_words;
-    size_t cell_count; // of all parts (shared/grid.h)
-    int cell_side;     // voxels along a side of a cell
-    bool pool;         // bricks come from a pool
-    bool border;       // bricks have a border
+    struct pel_memo_words *tables;  // the words of all transfer functions, one after the other
+    struct pel_memo_words *visible; // for each table, how many entries before each can be seen
+    size_t cell_count;              // of all parts (shared/grid.h)
+    int cell_side;                  // voxels along a side of a cell
+    bool pool;                      // bricks come from a pool
+    bool border;                    // bricks have a border
     // What the kernel must be able to do.
     int voxels;         // classes of voxels, VOXELS_*
     int filters;        // FILTERS_*
@@ -51,7 +49,6 @@ struct pel_world {
 // a camera without direction, a singular placement, more parts than WORLD_PART_MAX.
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout, struct pel_memo *memo);
-void pel_world_finish(struct pel_world *world);
 
 // Whether a pixel takes more than the one ray through its centre.
 bool pel_world_is_supersampled(const struct pel_supersampling *supersampling);
