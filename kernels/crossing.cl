@@ -70,17 +70,20 @@ INLINE void approach_node(__constant struct world *world, struct crossing *cross
     put_ahead(&crossing->ahead, least_lane(CHOOSE((integer)(SAMPLE_NEVER), first, meets)) - 1, n);
 }
 
+INLINE void approach_children(__constant struct world *world, struct crossing *crossing, int n,
+                              mask asks) {
+    for (int child = 0; child < 2; child++)
+        approach_node(world, crossing, child ? world->nodes[n].link : n + 1, asks);
+}
+
 // Looks what there is below a node that rays have come to.
 INLINE void enter_node(__constant struct world *world, __global const uchar *cells,
                        struct crossing *crossing, int n, mask asks) {
     const int link = world->nodes[n].link;
-    if (link < 0) {
-        cross_part(world, cells, &crossing->ray, crossing->t_near, world->step_mm, -1 - link,
-                   crossing);
-        return;
-    }
-    for (int child = 0; child < 2; child++)
-        approach_node(world, crossing, child ? link : n + 1, asks);
+    if (link < 0)
+        cross_part(world, cells, &crossing->ray, crossing->t_near, world->step_mm, -1 - link, crossing);
+    else
+        approach_children(world, crossing, n, asks);
 }
 #endif
 
@@ -171,7 +174,8 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     crossing->runs = crosses;
     crossing->t_near = t_near;
     crossing->end = (integer)(0);
-    approach_node(world, crossing, 0, crosses);
+    if (any_lane(crosses))
+        approach_children(world, crossing, 0, crosses);
 #elif CAPACITY > 1
     cross_parts(world, cells, ray, t_near, parts, crossing);
 #else
