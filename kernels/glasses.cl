@@ -1,14 +1,16 @@
-// glasses.cl - what both eyes see as one colour, through a pair of coloured glasses (docs/stereo.md, "Anaglyphs").
+// glasses.cl - what both eyes see as one colour, through a pair of coloured glasses
+// (docs/stereo.md, "Anaglyphs").
 //
-// A matrix makes red, green and blue of those of both eyes, in linear light or of values as they are stored.
-// host/output/anaglyph.c does the same to two pictures.
+// A matrix makes red, green and blue of those of both eyes, in linear light or of values as they
+// are stored. host/output/anaglyph.c does the same to two pictures.
 // Included by render.cl.
 #ifndef GLASSES_CL
 #define GLASSES_CL
 
 #if EYES == EYES_MERGED
-// The curve of sRGB (IEC 61966-2-1) and its inverse for 0..1, within 1e-6. Their powers are polynomials, fitted at
-// Chebyshev's nodes within 4e-7: pow, log2 and even sqrt would make them ten times as expensive on a CPU.
+// The curve of sRGB (IEC 61966-2-1) and its inverse for 0..1, within 1e-6. Their powers are
+// polynomials, fitted at Chebyshev's nodes within 4e-7: pow, log2 and even sqrt would make them ten
+// times as expensive on a CPU.
 INLINE real srgb_decode(real value) {
     value = AT_MOST(AT_LEAST(value, (real)(0.0f)), (real)(1.0f));
     real curve = 0.081870236f * value - 0.45162019f;

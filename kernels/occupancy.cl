@@ -1,14 +1,12 @@
 // occupancy.cl - from a transfer function to the cells of a part in which something may be visible.
 //
 // The first pass compares each cell's range of values with the table: a count of visible entries up
-// to each one answers whether a range holds any with two look-ups. Three more turn that into
-// distances, one axis at a time and a row of cells at a time: the Chebyshev distance separates,
-// D(x) = min over k of max(|k|, D(x + k)). For an octree the passes go up its levels instead, each over the nodes of one level,
-// and a last one brings down to every cell the largest empty node around it: a cell holds 0 where
-// something may be visible, else one more than that node's level.
+// to each one answers whether a range holds any with two look-ups. What the passes after it make of
+// that depends on the way to skip: distances.cl, nodes.cl, bricks.cl or bins.cl.
 //
-// Included by render.cl, because a program of their own would cost another half second of a cold
-// start.
+// Included by span.cl, because a program of their own would cost another half second of a cold
+// start; and nothing is in it that its variant does not ask for, because all passes and optical
+// models together cost a cold start a tenth of its time.
 #ifndef OCCUPANCY_CL
 #define OCCUPANCY_CL
 
@@ -42,6 +40,7 @@ static float2 reachable(__constant struct part *part, __global const float2 *ran
     return range.x > range.y ? range : (float2)(range.x - beyond, range.y + beyond);
 }
 
+#if MODELS & MODELS_ISO
 // Whether a surface of the part may lie in a cell with a range of values.
 static bool has_surface(__constant struct part *part, float2 range) {
     __constant const float *values = (__constant const float *)&part->surface_values;
@@ -52,6 +51,7 @@ static bool has_surface(__constant struct part *part, float2 range) {
     }
     return false;
 }
+#endif
 
 // Whether something may be visible in a cell with a range of values. An extremum is moved by all values that it does not
 // outdo, and a mean by all.
@@ -60,10 +60,14 @@ static bool occupied(__constant struct part *part, float2 range, __global const 
     // A cell without any value has its ends the wrong way round.
     if (range.x > range.y)
         return false;
+#if MODELS & MODELS_ISO
     if (part->model == MODEL_ISO)
         return has_surface(part, range);
+#endif
+#if MODELS & MODELS_PROJECTION
     if (part->model == MODEL_AVERAGE)
         return true;
+#endif
     const float a = range.x * part->table_scale + part->table_bias;
     const float b = range.y * part->table_scale + part->table_bias;
     // Interpolation rounds; one value everywhere does not.
@@ -73,10 +77,12 @@ static bool occupied(__constant struct part *part, float2 range, __global const 
     const bool between = linear && !part->table_nearest;
     int first = between ? (int)low : (int)(low + 0.5f);
     int last = between ? (int)ceil(high) : (int)(high + 0.5f);
+#if MODELS & MODELS_PROJECTION
     if (part->model == MODEL_MIP)
         first = 0;
     if (part->model == MODEL_MINIP)
         last = (int)part->table_last;
+#endif
     return counts[last + 1] > counts[first];
 }
 
@@ -90,86 +96,26 @@ static uchar find_cell(__constant struct world *world, __constant struct part *p
         return empty;
 #endif
     float2 range = ranges[part->ranges + i];
+#if FILTERS & FILTERS_CUBIC
     if (part->filter & FILTERS_CUBIC) {
         const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
                                        (int)count / part->cell_slice};
         range = reachable(part, ranges + part->ranges, dims, i, 0);
     }
+#endif
     return occupied(part, range, counts + part->visible, linear) ? 0 : empty;
 }
 
-// Where a row of cells begins that runs along one axis (0, 1, 2), and how it goes on.
-struct cell_row {
-    int start, stride, count;
-};
-
-// One way along a row. What a cell is told from behind is the least of max(k, distance of the k-th cell behind it), which
-// grows by no more than one from cell to cell: it stays what it was, v, as long as a cell with no more than v is no
-// further than v away. `last` has where each distance was met last.
-static void spread_one_way(__global const uchar *in, __global uchar *out, struct cell_row row, bool back) {
-    short last[CELL_DISTANCE_MAX + 1];
-    for (int d = 0; d <= CELL_DISTANCE_MAX; d++)
-        last[d] = -CELL_DISTANCE_MAX - 1;
-    int best = CELL_DISTANCE_MAX, met = -CELL_DISTANCE_MAX - 1;
-    for (int n = 0; n < row.count; n++) {
-        const int at = row.start + (back ? row.count - 1 - n : n) * row.stride;
-        const int own = in[at];
-        last[own] = (short)n;
-        if (own <= best) {
-            best = own;
-            met = n;
-        } else if (n - met > best && best < CELL_DISTANCE_MAX) {
-            best++;
-            met = max(met, (int)last[best]);
-        }
-        out[at] = (uchar)(back ? min(best, (int)out[at]) : best);
-    }
-}
-
-// Spreads distances along the i-th row of an axis, both ways.
-static void spread(__constant struct part *part, __global const uchar *in, __global uchar *out,
-                   struct cell_dims dims, int i, uint axis) {
-    struct cell_row row = {i * dims.x, 1, dims.x};
-    int rows = dims.y * dims.z;
-    if (axis == 1) {
-        row.start = i / dims.x * part->cell_slice + i % dims.x;
-        row.stride = part->cell_row;
-        row.count = dims.y;
-        rows = dims.x * dims.z;
-    } else if (axis == 2) {
-        row.start = i;
-        row.stride = part->cell_slice;
-        row.count = dims.z;
-        rows = dims.x * dims.y;
-    }
-    if (i >= rows)
-        return;
-    spread_one_way(in, out, row, false);
-    spread_one_way(in, out, row, true);
-}
-
-// 1 when brick i, of 2^bits cells along a side, has a cell that is not empty.
-static uchar find_brick(__constant struct part *part, __global const uchar *cells,
-                        struct cell_dims dims, int i, int bits) {
-    const int size = 1 << bits;
-    const int columns = (dims.x + size - 1) >> bits, rows = (dims.y + size - 1) >> bits;
-    const int left = i % columns << bits, top = i / columns % rows << bits,
-              front = i / columns / rows << bits;
-    const int right = min(left + size, dims.x), bottom = min(top + size, dims.y),
-              back = min(front + size, dims.z);
-    for (int z = front; z < back; z++)
-        for (int y = top; y < bottom; y++)
-            for (int x = left; x < right; x++)
-                if (!cells[z * part->cell_slice + y * part->cell_row + x])
-                    return 1;
-    return 0;
-}
-
+#if SKIP == SKIP_GRID || SKIP == SKIP_DISTANCE
+#include "distances.cl"
+#elif SKIP == SKIP_OCTREE
+#include "nodes.cl"
+#elif SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
+#include "bricks.cl"
+#endif
 #if SKIP == SKIP_BLOCKS
 #include "bins.cl"
 #endif
-
-#include "nodes.cl"
 #if ADAPTIVE
 #include "stride_cells.cl"
 #endif
@@ -211,18 +157,19 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
         out[i] = visible_bins(part, visible + part->visible);
     else if (pass == PASS_CORNER)
         out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0, 0), visible + part->visible, linear);
-    else if (pass >= PASS_BINS)
-        out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS), empty);
     else
+        out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS), empty);
 #endif
+#if SKIP == SKIP_GRID || SKIP == SKIP_DISTANCE
+    spread(part, in, out, dims, (int)i, pass);
+#elif SKIP == SKIP_OCTREE
     if (pass == PASS_NAME)
         out[i] = name_node(part, in, dims, (int)i);
-    else if (pass >= PASS_BRICK)
-        out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
-    else if (pass > PASS_MERGE)
-        merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
     else
-        spread(part, in, out, dims, (int)i, pass);
+        merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
+#elif SKIP == SKIP_BVH
+    out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
+#endif
 }
 
 #endif

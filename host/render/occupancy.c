@@ -28,6 +28,11 @@ static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device
     return occupancy->cells && occupancy->scratch;
 }
 
+// `grid` and `distance` go by the same cells.
+static enum pel_skip map_of(enum pel_skip skip) {
+    return skip == PEL_SKIP_GRID ? PEL_SKIP_DISTANCE : skip;
+}
+
 // Padding is cleared, so that keys can be compared byte by byte.
 static void make_key(struct pel_occupancy_key *key, const struct pel_world *world,
                      const struct pel_layout *layout, enum pel_skip skip,
@@ -36,8 +41,7 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
     memcpy(&key->layout, layout, sizeof *layout);
     key->part_count = world->bytes.part_count;
     key->linear = world->table_linear;
-    // `grid` and `distance` go by the same cells.
-    key->skip = skip == PEL_SKIP_GRID ? PEL_SKIP_DISTANCE : skip;
+    key->skip = map_of(skip);
     if (skip == PEL_SKIP_BVH || skip == PEL_SKIP_BLOCKS) {
         key->bricks.size = bricks->size;
         key->bricks.apart = bricks->apart;
@@ -184,18 +188,19 @@ static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *
     return good;
 }
 
-// The kernel for the passes, one that knows blocks and masks where there are any.
+// The kernel for the passes. One that has been compiled for more than is asked for is as good.
 static bool find_kernel(struct pel_occupancy *occupancy, const struct pel_world *world,
                         const struct pel_kernel *render, enum pel_skip skip) {
-    bool blocks = skip == PEL_SKIP_BLOCKS;
-    if (occupancy->kernel && occupancy->knows_blocks >= blocks &&
-        occupancy->knows_masks >= world->masked && occupancy->knows_strides >= world->adaptive)
+    const struct pel_occupancy_text *has = &occupancy->text;
+    struct pel_occupancy_text asked = {map_of(skip), world->filters, world->models, world->masked,
+                                       world->adaptive};
+    if (occupancy->kernel && has->skip == asked.skip && !(asked.filters & ~has->filters) &&
+        !(asked.models & ~has->models) && has->masks >= asked.masks &&
+        has->strides >= asked.strides)
         return true;
     pel_kernel_destroy(occupancy->kernel);
     occupancy->kernel = pel_kernel_sibling(render, "occupancy");
-    occupancy->knows_blocks = blocks;
-    occupancy->knows_masks = world->masked;
-    occupancy->knows_strides = world->adaptive;
+    occupancy->text = asked;
     return occupancy->kernel != NULL;
 }
 

@@ -21,11 +21,18 @@ struct pel_occupancy_key {
     float stride_depth;               // 0: no strides
 };
 
+// What kernels/occupancy.cl is compiled for.
+struct pel_occupancy_text {
+    enum pel_skip skip;
+    int filters, models; // FILTERS_* and MODELS_*
+    bool masks, strides;
+};
+
 // Zero-initialise.
 struct pel_occupancy {
     struct pel_kernel *kernel;
-    bool knows_blocks, knows_masks, knows_strides; // what there is in its program
-    struct pel_mirror visible;                     // counts of visible entries
+    struct pel_occupancy_text text; // what there is in its program
+    struct pel_mirror visible;      // counts of visible entries
     struct pel_buffer *cells,
         *scratch;               // a byte for each cell of each part, and room to work in
     size_t cell_count;          // room in both

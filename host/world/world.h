@@ -77,6 +77,9 @@ int pel_world_pictures(const struct pel_world *world);
 int pel_world_across(const struct pel_world *world);
 int pel_world_planes(const struct pel_world *world);
 
+// Pixels of all pictures, depth not counted.
+size_t pel_world_pixels(const struct pel_world *world);
+
 // How many of the first bytes of world->bytes there are for a kernel to read.
 size_t pel_world_bytes(const struct pel_world *world);
 

@@ -86,6 +86,11 @@ int pel_world_pictures(const struct pel_world *world) {
     return world->eyes == EYES_BOTH ? 2 : 1;
 }
 
+size_t pel_world_pixels(const struct pel_world *world) {
+    return (size_t)world->bytes.width * (size_t)world->bytes.height *
+           (size_t)pel_world_pictures(world);
+}
+
 int pel_world_across(const struct pel_world *world) {
     return world->eyes == EYES_BOTH && world->bytes.row_px > world->bytes.width ? 2 : 1;
 }
