@@ -213,15 +213,14 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
         return;
 
 #if EYES == EYES_MERGED
-    struct ray ray;
     struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)}, first = light;
     for (int side = 0; side < 2; side++) {
         first = light;
-        ray = pixel_rays(world, side, left, top RAY_ARGUMENTS);
+        const struct ray ray = pixel_rays(world, side, left, top RAY_ARGUMENTS);
         light = packet_light(world, table, cells STRIDE_ARGUMENT, MEMORY_ARGUMENTS, &ray, left, top, picture,
                              side ? second_counts : counts);
     }
-    light = merge_eyes(world, &first, &light);
+    store_merged(world, picture, left, top, &first, &light);
 #else
     const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
@@ -231,8 +230,8 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
 #if !DEBUG
     add_background(&light, world);
 #endif
-#endif
     store_pixels(world, picture, eye, left, top, &ray, &light);
+#endif
 }
 
 #if PROBE
