@@ -198,7 +198,8 @@ INLINE struct light follow_exactly(__constant struct world *world, TABLE_SPACE c
                                    MEMORY_PARAMETERS, const struct ray *ray, integer *samples) {
     const real zero = (real)(0.0f);
     struct light light = {zero, zero, zero, zero};
-    for (int p = 0; p < world->part_count; p++) {
+    for (ulong met = PARTS_MET(world, ray, (real)(FLT_MAX)); met != 0; met &= met - 1) {
+        const int p = FIRST_PART(met);
         __constant struct part *part = &world->parts[p];
 #if MASKED
         const bool whole = part->mask_count == 0 || part->mask_inverted;
