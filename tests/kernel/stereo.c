@@ -124,7 +124,7 @@ static void test_statistics(void **state) {
     assert_int_equal(again.uploaded_bytes, 0);
     scene->camera.eye[0] += 1;
     pel_image_destroy(render_picture(renderer, scene, &again));
-    assert_int_in_range(again.uploaded_bytes, 1, 1024);
+    assert_in_range(again.uploaded_bytes, 1, 1024);
     size_t pixels = (size_t)scene->render.width * (size_t)scene->render.height;
     assert_int_equal(again.rays, 2 * pixels);
     assert_int_equal(again.samples, again.stereo.eye_samples[0] + again.stereo.eye_samples[1]);
@@ -138,7 +138,7 @@ static void test_statistics(void **state) {
     scene->stereo.kind = PEL_STEREO_ROW_INTERLACED;
     pel_image_destroy(render_picture(renderer, scene, &again));
     assert_int_equal(again.rays, pixels);
-    assert_int_in_range(again.samples, first.samples * 9 / 20, first.samples * 11 / 20);
+    assert_in_range(again.samples, first.samples * 9 / 20, first.samples * 11 / 20);
     pel_scene_destroy(scene);
     pel_renderer_destroy(renderer);
 }

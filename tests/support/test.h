@@ -14,9 +14,11 @@
 
 #include "pellucid.h"
 
-// cmocka 2 calls it so and warns of the older name, which is all that cmocka 1 has.
-#ifndef assert_int_in_range
-#define assert_int_in_range assert_in_range
+// cmocka 2 has a name for each kind of number, and warns of this one, which is all that cmocka 1
+// has.
+#ifdef assert_int_in_range
+#undef assert_in_range
+#define assert_in_range assert_int_in_range
 #endif
 
 // The path of a file below $PELLUCID_TEST_DATA (default: ../shared beside the repository). The text

@@ -68,7 +68,7 @@ static void test_neighbours(void **state) {
     fill(bins, 3, 0.006);
     for (int walk = 0; walk < 2; walk++) {
         assert_true(pel_blocks_build(&blocks, bins, (size_t[]){X, Y, Z}, SIDE, walk));
-        assert_int_in_range(blocks.count, 2, 4 * 2 * 3 - 1);
+        assert_in_range(blocks.count, 2, 4 * 2 * 3 - 1);
         for (size_t b = 0; b < blocks.count; b++)
             for (int n = 0; n < 27; n++) {
                 int at[3];
@@ -101,7 +101,7 @@ static int walk_nodes(const struct pel_blocks *blocks, size_t n, int *leaves) {
         bins = walk_nodes(blocks, n + 1, leaves) | walk_nodes(blocks, (size_t)node->link, leaves);
     }
     assert_int_equal(node->axis >> BLOCK_AXIS_BITS, bins);
-    assert_int_in_range(node->axis & 3, 0, 2);
+    assert_in_range(node->axis & 3, 0, 2);
     return bins;
 }
 

@@ -9,7 +9,7 @@ enum { N_MAX = 8, SIDE = 1 << 24, KEYS = 40 };
 
 // How often each of `count` even cells of a side has been hit.
 static void hit(int hits[], u32 place, int count) {
-    assert_int_in_range(place, 0, SIDE - 1);
+    assert_in_range(place, 0, SIDE - 1);
     hits[(uint64_t)place * (uint64_t)count >> 24]++;
 }
 
@@ -103,7 +103,7 @@ static void test_hammersley(void **state) {
         }
         check_once(columns, n * n, "column", n);
         for (int row = 0; row < rows_count; row++)
-            assert_int_in_range(rows[row], n * n == rows_count, 1);
+            assert_in_range(rows[row], n * n == rows_count, 1);
     }
 }
 
@@ -169,8 +169,8 @@ static void test_draws_look_random(void **state) {
             before = draw;
         }
         for (int bit = 0; bit < 32; bit++) {
-            assert_int_in_range(set[bit], DRAWS / 2 - 350, DRAWS / 2 + 350); // five deviations
-            assert_int_in_range(changed[bit], DRAWS / 2 - 350, DRAWS / 2 + 350);
+            assert_in_range(set[bit], DRAWS / 2 - 350, DRAWS / 2 + 350); // five deviations
+            assert_in_range(changed[bit], DRAWS / 2 - 350, DRAWS / 2 + 350);
         }
     }
 }

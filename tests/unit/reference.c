@@ -263,7 +263,7 @@ static void test_homogeneous_box(void **state) {
             met += chord > 1;
         }
     }
-    assert_int_in_range(met, 60, width * height - 60);
+    assert_in_range(met, 60, width * height - 60);
     pel_scene_destroy(scene);
 }
 

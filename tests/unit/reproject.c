@@ -75,7 +75,7 @@ static void test_random_rows(void **state) {
                 assert_float_equal(second->rgba[4 * i + c], rgba[c], 1e-5);
             set += known;
         }
-        assert_int_in_range(set, WIDTH * ROWS / 4, WIDTH * ROWS * 3 / 4);
+        assert_in_range(set, WIDTH * ROWS / 4, WIDTH * ROWS * 3 / 4);
     }
     pel_image_destroy(first);
     pel_image_destroy(second);
