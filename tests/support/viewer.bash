@@ -57,9 +57,9 @@ wait_name() {
     complain "the window's name is '$(xdotool getwindowname "$window" 2>&1)', not '$1'"
 }
 
-# wait_for PATH - waits until a file exists.
+# wait_for PATH - waits until a file exists, which may take as long as compiling what renders it on a busy machine.
 wait_for() {
-    for _ in $(seq 600); do
+    for _ in $(seq 2400); do
         [ -e "$1" ] && return
         sleep 0.05
     done
