@@ -7,6 +7,8 @@
 #include <imgui.h>
 
 #include <backends/imgui_impl_opengl3.h>
+#include <dlfcn.h>
+#include <initializer_list>
 
 namespace {
 
@@ -33,6 +35,16 @@ void style(float scale) {
     style.WindowBorderSize = 0;
     style.Colors[ImGuiCol_WindowBg].w = 1;
     style.ScaleAllSizes(scale);
+}
+
+// Dear ImGui 1.92.2 closes OpenGL's libraries with the first window, while others still call what
+// they found in them. So those it has opened stay until the program ends.
+void keep_opengl() {
+    for (const char *name : {"libOpenGL.so.0", "libGL.so.1", "libGLX.so.0", "libEGL.so.1"}) {
+        void *library = dlopen(name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
+        if (library)
+            dlclose(library);
+    }
 }
 
 // The keys that text fields know.
@@ -141,7 +153,9 @@ bool pel_widget_start(int window, double scale) {
     io.MousePos = ImVec2(-1e6f, -1e6f);
     style(static_cast<float>(scale));
     prepare_input(io);
-    return ImGui_ImplOpenGL3_Init("#version 330 core");
+    bool started = ImGui_ImplOpenGL3_Init("#version 330 core");
+    keep_opengl();
+    return started;
 }
 
 void pel_widget_stop(int window) {
