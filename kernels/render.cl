@@ -11,6 +11,7 @@
 #include "order.cl"
 #include "pixel.cl"
 #include "shade.cl"
+#include "sight.cl"
 #include "span.cl"
 #include "style.cl"
 #if ADAPTIVE
@@ -64,6 +65,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
 
     struct runs runs = runs_begin();
+    ulong expected = 0; // cursors whose last sample was seen, one bit each
     while (any_lane(alive)) {
 #if MIXING == MIXING_ORDERED
         const real place = order_nearest(crossing);
@@ -116,47 +118,47 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
             *samples -= present;
             COUNT_SPARED(crossing, length, present);
-            const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
+            struct sight sight;
+            look(table, MEMORY_ARGUMENTS, part, x, y, z, &present, expected >> c & 1, &sight);
 #if MODELS
             if (part->model != MODEL_ABSORPTION) {
                 const struct spot spot = {part, cursor, c, i, present};
                 seen |= any_lane(gather(world, table, cells, MEMORY_ARGUMENTS, &gathered, crossing,
-                                        &light, &mixture, &sample, spot));
+                                        &light, &mixture, &sight.sample, spot));
                 continue;
             }
 #endif
-            const struct entry entry = find_entry(part, sample.raw, &present);
-            real strength = entry_strength(table, &entry);
-            const mask visible = present & MASK(strength > 0.0f);
 #if PROBE
-            log_sample(crossing, c, i, length, x, y, z, sample.raw, visible ? strength : 0, layer->a);
+            log_sample(crossing, c, i, length, x, y, z, sight.sample.raw,
+                       sight.visible ? sight.strength : 0, layer->a);
 #endif
-            if (!any_lane(visible)) {
+            expected &= ~(1UL << c);
+            if (!any_lane(sight.visible)) {
                 pass_over(part, cells, cursor, RUN_LAST(i, length), present);
                 continue;
             }
             seen = true;
+            expected |= 1UL << c;
 
             real r, g, b;
-            entry_colour(table, &entry, &r, &g, &b);
+            entry_colour(table, &sight.entry, &r, &g, &b);
 #if VOXELS & VOXELS_RGBA
             if (IS_CLASS(part, VOXELS_RGBA)) {
-                r = sample.r;
-                g = sample.g;
-                b = sample.b;
+                r = sight.sample.r;
+                g = sight.sample.g;
+                b = sight.sample.b;
             }
 #endif
 #if SHADING
             if (HAS_NORMALS(part))
                 style(FRAME_ARGUMENTS, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
-                      SAMPLE_NUMBER(crossing, c, t), x, y, z, CHOOSE(zero, sample.raw, visible),
-                      visible, &strength, &r, &g, &b);
+                      SAMPLE_NUMBER(crossing, c, t), x, y, z, &sight, &r, &g, &b);
 #endif
 #if PROBE
             log_colour(crossing, r, g, b);
 #endif
             mix_add(&mixture, layer, part, r, g, b,
-                    CHOOSE(zero, RUN_STRENGTH(strength, length), visible));
+                    CHOOSE(zero, RUN_STRENGTH(sight.strength, length), sight.visible));
         }
 
 #if MIXING == MIXING_ORDERED
