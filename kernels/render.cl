@@ -1,9 +1,9 @@
 // render.cl - the only sampled ray loop.
 //
-// A work-item follows one packet of rays through all parts that they cross. Sample i of a ray lies at
-// t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. The cost of a
-// sample follows the parts that the packet is in (active.cl). Each part has a cursor; after a sample in which
-// nothing was visible the ray goes on to the least of the cursors' answers.
+// A work-item follows one packet of rays through all parts that they cross. Sample i of a ray lies
+// at t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. The
+// cost of a sample follows the parts that the packet is in (active.cl). Each part has a cursor;
+// after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
 #include "depth.cl"
 #include "mix.cl"
@@ -45,16 +45,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                                 struct crossing *crossing, integer *samples) {
     const real zero = (real)(0.0f);
     struct light light = {zero, zero, zero, zero};
-    // The first sample of each ray, and the one behind its last.
-    integer i = (integer)(SAMPLE_NEVER), last = (integer)(0);
-    for (int c = 0; c < COUNTED(crossing->count); c++) {
-        i = min(i, crossing->cursors[c].next);
-        last = max(last, crossing->cursors[c].end);
-    }
-    mask alive = MASK(i < last);
     struct active active;
-    active.until = CAPACITY == 1 ? last : i;
-    active.count = active.joined = 0;
+    mask alive;
+    integer i = begin_active(&active, crossing, &alive);
 
 #if MODELS
     struct gathered gathered;
@@ -72,8 +65,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         alive &= MASK(place < NOWHERE);
         active.count = crossing->count;
 #elif CAPACITY > 1
-        if (any_lane(alive & MASK(i >= active.until)))
+        if (any_lane(alive & MASK(REACH(i) >= active.until))) {
             join_active(world, cells, &active, crossing, i, alive);
+#if MODELS
+            gathered_meet(&gathered, crossing);
+#endif
+        }
 #endif
         const integer length = find_run(world, crossing, &runs, &i, alive);
         bool seen = false;
@@ -177,7 +174,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         } else {
             i = CHOOSE(i, leap(&active, crossing, i), alive);
         }
-        alive &= MASK(i < last);
+        alive &= MASK(i < active.last);
 #endif
     }
 #if MODELS & MODELS_PROJECTION
@@ -190,9 +187,10 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #include "packet.cl"
 #include "glasses.cl"
 
-// Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX pixels. Writes
-// premultiplied RGBA, rows from the top, and each packet's numbers of samples (SAMPLE_COUNTS). A work-item of two eyes
-// leaves the second one's numbers behind those of all packets of its tile.
+// Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX
+// pixels. Writes premultiplied RGBA, rows from the top, and each packet's numbers of samples
+// (SAMPLE_COUNTS). A work-item of two eyes leaves the second one's numbers behind those of all
+// packets of its tile.
 __kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
                      __global float4 *picture, __global uint *sample_counts, const uint first_tile,
                      __global const uchar *cells RAY_PARAMETERS STRIDE_PARAMETER,
@@ -203,7 +201,8 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint turn = get_global_id(0) / packets_per_tile + first_tile;
     const uint tile = EYES == EYES_BOTH ? turn / 2 : turn;
     const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
-    // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that high.
+    // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that
+    // high.
     const uint band = packet / (packets_per_row * GROUP_ROWS),
                place = packet % (packets_per_row * GROUP_ROWS);
     const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;
@@ -218,15 +217,14 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
         return;
 
 #if EYES == EYES_MERGED
-    struct ray ray;
     struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)}, first = light;
     for (int side = 0; side < 2; side++) {
         first = light;
-        ray = pixel_rays(world, side, left, top RAY_ARGUMENTS);
+        const struct ray ray = pixel_rays(world, side, left, top RAY_ARGUMENTS);
         light = packet_light(world, table, cells STRIDE_ARGUMENT, MEMORY_ARGUMENTS, &ray, left, top, picture,
                              side ? second_counts : counts);
     }
-    light = merge_eyes(world, &first, &light);
+    store_merged(world, picture, left, top, &first, &light);
 #else
     const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
@@ -236,8 +234,8 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
 #if !DEBUG
     add_background(&light, world);
 #endif
-#endif
     store_pixels(world, picture, eye, left, top, &ray, &light);
+#endif
 }
 
 #if PROBE

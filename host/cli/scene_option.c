@@ -156,18 +156,6 @@ static bool add_camera(struct overrides *overrides, const char *text) {
     return true;
 }
 
-static bool add_set(struct overrides *overrides, const char *text) {
-    const char *equals = strchr(text, '=');
-    if (!equals || equals == text) {
-        cli_fail(PEL_ERROR_ARGUMENT, "--set: '%s' is not of the form key=value", text);
-        return false;
-    }
-    char key[256];
-    snprintf(key, sizeof key, "%.*s", (int)(equals - text), text);
-    overrides_add(overrides, key, equals + 1);
-    return true;
-}
-
 error_t scene_option_parse(int key, const char *argument, struct render_options *options) {
     struct overrides *overrides = &options->overrides;
     bool good = true;
@@ -191,7 +179,7 @@ error_t scene_option_parse(int key, const char *argument, struct render_options 
         good = mask_option_add(overrides, argument);
         break;
     case SCENE_SET:
-        good = add_set(overrides, argument);
+        good = overrides_add_setting(overrides, "--set", argument);
         break;
     default: {
         const struct shorthand *is = shorthands, *end = is + sizeof shorthands / sizeof *shorthands;

@@ -248,9 +248,8 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
     bool changed = false;
     if (!find_kernel(occupancy, world, render, skip) ||
         !make_room(occupancy, device, world->cell_count) ||
-        !pel_mirror_update(&occupancy->visible, device, world->visible,
-                           world->visible_words * sizeof *world->visible, 0, "visible entries",
-                           &changed))
+        !pel_mirror_update_words(&occupancy->visible, device, world->visible, "visible entries",
+                                 &changed))
         return false;
     struct pel_brick_settings bricks = pel_bricks_resolve(&scene->render.bricks, skip);
     if (bricks.size < world->cell_side)
