@@ -47,6 +47,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
     struct active active;
     mask alive;
     integer i = begin_active(&active, crossing, &alive);
+#if MIXING != MIXING_ORDERED
+    integer last = active.last;
+#endif
+#if JOINS
+    integer until = active.until;
+#endif
 
 #if MODELS
     struct gathered gathered;
@@ -63,8 +69,10 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         alive &= MASK(place < NOWHERE);
         active.count = crossing->count;
 #elif CAPACITY > 1
-        if (any_lane(alive & MASK(REACH(i) >= active.until))) {
+        if (any_lane(alive & MASK(REACH(i) >= until))) {
             join_active(world, cells, &active, crossing, i, alive);
+            until = active.until;
+            last = active.last;
 #if MODELS
             gathered_meet(&gathered, crossing);
 #endif
@@ -172,7 +180,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         } else {
             i = CHOOSE(i, leap(&active, crossing, i), alive);
         }
-        alive &= MASK(i < active.last);
+        alive &= MASK(i < last);
 #endif
     }
 #if MODELS & MODELS_PROJECTION
