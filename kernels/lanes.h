@@ -103,18 +103,16 @@ typedef LANES_JOIN(int, LANES) mask;
 #define AT_LEAST(v, low) CHOOSE((v), (low), MASK((v) < (low)))
 #define AT_MOST(v, high) CHOOSE((v), (high), MASK((v) > (high)))
 
-// ALL_LANES(f): the vector of f(0), f(1) ... STORE_LANES(v, array): the way back, for loops over lanes.
+// ALL_LANES(f): the vector of f(0), f(1) ... STORE_LANES(v, array): the way back, for loops over lanes. LOAD_LANES(array): the
+// vector of what they have left there.
 #if LANES == 1
 #define ALL_LANES(f) f(0)
+#define STORE_LANES(v, array) (*(array) = (v))
+#define LOAD_LANES(array) (*(array))
 #else
 #define ALL_LANES(f) ((real)(LANE_NUMBERS(f)))
-#endif
-#if LANES == 4
-#define STORE_LANES(v, array) vstore4(v, 0, array)
-#elif LANES == 8
-#define STORE_LANES(v, array) vstore8(v, 0, array)
-#elif LANES == 16
-#define STORE_LANES(v, array) vstore16(v, 0, array)
+#define STORE_LANES(v, array) LANES_JOIN(vstore, LANES)(v, 0, array)
+#define LOAD_LANES(array) LANES_JOIN(vload, LANES)(0, array)
 #endif
 
 // True when any lane of a mask is set. The built-in any() costs 13 % of a frame through PoCL; a mask

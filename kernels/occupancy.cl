@@ -1,9 +1,8 @@
 // occupancy.cl - from a transfer function to the cells of a part in which something may be visible.
 //
-// The first pass compares each cell's range of values with the table: a count of visible entries up
-// to each one answers whether a range holds any with two look-ups. Three more turn that into
-// distances, one axis at a time and a row of cells at a time: the Chebyshev distance separates,
-// D(x) = min over k of max(|k|, D(x + k)). For an octree the passes go up its levels instead, each over the nodes of one level,
+// The first pass compares each cell's range of values with the table: the first visible entry from each one on answers with
+// one look-up whether a range holds any. Three more turn that into distances (distance.cl). For an octree the passes go up its
+// levels instead, each over the nodes of one level,
 // and a last one brings down to every cell the largest empty node around it: a cell holds 0 where
 // something may be visible, else one more than that node's level.
 //
@@ -26,7 +25,9 @@ struct cell_dims {
 // most ((5/4)^3 - 1) / 2 of it on either side.
 static float2 reachable(__constant struct part *part, __global const float2 *ranges,
                         struct cell_dims dims, int i, int reach) {
+#if FILTERS & FILTERS_CUBIC
     reach += part->filter & FILTERS_CUBIC ? 1 : 0;
+#endif
     if (reach == 0)
         return ranges[i];
     const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
@@ -42,141 +43,146 @@ static float2 reachable(__constant struct part *part, __global const float2 *ran
     return range.x > range.y ? range : (float2)(range.x - beyond, range.y + beyond);
 }
 
-// Whether a surface of the part may lie in a cell with a range of values.
-static bool has_surface(__constant struct part *part, float2 range) {
+#if MODELS & MODELS_ISO
+// The lanes in whose range of values a surface of the part may lie.
+static mask has_surface(__constant struct part *part, real low, real high) {
     __constant const float *values = (__constant const float *)&part->surface_values;
+    mask found = (mask)(0);
     for (int n = 0; n < part->surface_count; n++) {
-        const float slack = 1e-5f * (range.y - range.x + fabs(values[n]));
-        if (values[n] >= range.x - slack && values[n] <= range.y + slack)
-            return true;
+        const real slack = 1e-5f * (high - low + fabs(values[n]));
+        found |= MASK(values[n] >= low - slack) & MASK(values[n] <= high + slack);
     }
-    return false;
+    return found;
 }
+#endif
 
-// Whether something may be visible in a cell with a range of values. An extremum is moved by all values that it does not
-// outdo, and a mean by all.
-static bool occupied(__constant struct part *part, float2 range, __global const uint *counts,
+#define LOAD_VISIBLE(at) next[at]
+
+// The lanes in whose range of values something may be visible. An extremum is moved by all values that it does not outdo,
+// and a mean by all.
+static mask occupied(__constant struct part *part, real low, real high, __global const uint *next,
                      bool linear) {
     // A cell without any value has its ends the wrong way round.
-    if (range.x > range.y)
-        return false;
+    const mask some = MASK(low <= high);
+#if MODELS & MODELS_ISO
     if (part->model == MODEL_ISO)
-        return has_surface(part, range);
-    if (part->model == MODEL_AVERAGE)
-        return true;
-    const float a = range.x * part->table_scale + part->table_bias;
-    const float b = range.y * part->table_scale + part->table_bias;
-    // Interpolation rounds; one value everywhere does not.
-    const float slack = range.x < range.y ? 1e-3f : 0.0f;
-    const float low = clamp(fmin(a, b) - slack, 0.0f, part->table_last);
-    const float high = clamp(fmax(a, b) + slack, 0.0f, part->table_last);
-    const bool between = linear && !part->table_nearest;
-    int first = between ? (int)low : (int)(low + 0.5f);
-    int last = between ? (int)ceil(high) : (int)(high + 0.5f);
-    if (part->model == MODEL_MIP)
-        first = 0;
-    if (part->model == MODEL_MINIP)
-        last = (int)part->table_last;
-    return counts[last + 1] > counts[first];
-}
-
-// Whether something may be visible in cell i of a part's `count`; 0 when it may. There are many, so divisions are left to
-// those that need them.
-static uchar find_cell(__constant struct world *world, __constant struct part *part,
-                       __global const float2 *ranges, __global const uint *counts, uint count,
-                       int i, bool linear, uchar empty) {
-#if MASKED
-    if (mask_empties(world, part, ranges, i % part->cell_row, i % part->cell_slice / part->cell_row, i / part->cell_slice))
-        return empty;
+        return some & has_surface(part, low, high);
 #endif
-    float2 range = ranges[part->ranges + i];
-    if (part->filter & FILTERS_CUBIC) {
-        const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
-                                       (int)count / part->cell_slice};
-        range = reachable(part, ranges + part->ranges, dims, i, 0);
-    }
-    return occupied(part, range, counts + part->visible, linear) ? 0 : empty;
+#if MODELS & MODELS_PROJECTION
+    if (part->model == MODEL_AVERAGE)
+        return some;
+#endif
+    // Interpolation rounds; one value everywhere does not.
+    const real slack = CHOOSE((real)(0.0f), (real)(1e-3f), MASK(low < high));
+    const real a = CHOOSE((real)(0.0f), low, some) * part->table_scale + part->table_bias;
+    const real b = CHOOSE((real)(0.0f), high, some) * part->table_scale + part->table_bias;
+    const bool between = linear && !part->table_nearest;
+    const real nearest = (real)(between ? 0.0f : 0.5f), end = (real)(part->table_last);
+    const real least = AT_MOST(AT_LEAST(AT_MOST(a, b) - slack, 0.0f), end) + nearest;
+    const real most = AT_MOST(AT_LEAST(AT_LEAST(a, b) + slack, 0.0f), end) + nearest;
+    integer first = TO_INTEGER(least), last = TO_INTEGER(most);
+    if (between)
+        last = CHOOSE(last, last + 1, MASK(TO_REAL(last) < most));
+#if MODELS & MODELS_PROJECTION
+    if (part->model == MODEL_MIP)
+        first = (integer)(0);
+    if (part->model == MODEL_MINIP)
+        last = TO_INTEGER(end);
+#endif
+    // Cells in empty space are many, and often one look-up does for all.
+    if (LANES > 1 && (int)next[least_lane(first)] > -least_lane(-last))
+        return (mask)(0);
+    return some & MASK(GATHER(int, LOAD_VISIBLE, first) <= last);
 }
 
-// Where a row of cells begins that runs along one axis (0, 1, 2), and how it goes on.
-struct cell_row {
-    int start, stride, count;
-};
+#define LOAD_LOW(at) ranges[at].x
+#define LOAD_HIGH(at) ranges[at].y
+#define LANE_NUMBER(lane) lane
 
-// One way along a row. What a cell is told from behind is the least of max(k, distance of the k-th cell behind it), which
-// grows by no more than one from cell to cell: it stays what it was, v, as long as a cell with no more than v is no
-// further than v away. `last` has where each distance was met last.
-static void spread_one_way(__global const uchar *in, __global uchar *out, struct cell_row row, bool back) {
-    short last[CELL_DISTANCE_MAX + 1];
-    for (int d = 0; d <= CELL_DISTANCE_MAX; d++)
-        last[d] = -CELL_DISTANCE_MAX - 1;
-    int best = CELL_DISTANCE_MAX, met = -CELL_DISTANCE_MAX - 1;
-    for (int n = 0; n < row.count; n++) {
-        const int at = row.start + (back ? row.count - 1 - n : n) * row.stride;
-        const int own = in[at];
-        last[own] = (short)n;
-        if (own <= best) {
-            best = own;
-            met = n;
-        } else if (n - met > best && best < CELL_DISTANCE_MAX) {
-            best++;
-            met = max(met, (int)last[best]);
-        }
-        out[at] = (uchar)(back ? min(best, (int)out[at]) : best);
-    }
-}
+#if LANES > 1
+// PoCL makes a store for each element of vstore's bytes, wherever they are.
+typedef LANES_JOIN(uchar, LANES) loose_bytes __attribute__((aligned(1)));
+#endif
 
-// Spreads distances along the i-th row of an axis, both ways.
-static void spread(__constant struct part *part, __global const uchar *in, __global uchar *out,
-                   struct cell_dims dims, int i, uint axis) {
-    struct cell_row row = {i * dims.x, 1, dims.x};
-    int rows = dims.y * dims.z;
-    if (axis == 1) {
-        row.start = i / dims.x * part->cell_slice + i % dims.x;
-        row.stride = part->cell_row;
-        row.count = dims.y;
-        rows = dims.x * dims.z;
-    } else if (axis == 2) {
-        row.start = i;
-        row.stride = part->cell_slice;
-        row.count = dims.z;
-        rows = dims.x * dims.y;
-    }
-    if (i >= rows)
+// The ranges of values of LANES cells from cell `at` on, and those of the last one again behind a part's `count`.
+INLINE void load_ranges(real *low, real *high, __global const float2 *ranges, int at, int count) {
+#if LANES > 1
+    if (at + LANES <= count) {
+        const real one = LANES_JOIN(vload, LANES)(0, (__global const float *)(ranges + at));
+        const real two = LANES_JOIN(vload, LANES)(1, (__global const float *)(ranges + at));
+        *low = (real)(one.even, two.even);
+        *high = (real)(one.odd, two.odd);
         return;
-    spread_one_way(in, out, row, false);
-    spread_one_way(in, out, row, true);
+    }
+#endif
+    const integer cell = min((integer)(LANE_NUMBERS(LANE_NUMBER)) + at, (integer)(count - 1));
+    *low = GATHER(float, LOAD_LOW, cell);
+    *high = GATHER(float, LOAD_HIGH, cell);
 }
 
-// 1 when brick i, of 2^bits cells along a side, has a cell that is not empty.
-static uchar find_brick(__constant struct part *part, __global const uchar *cells,
-                        struct cell_dims dims, int i, int bits) {
-    const int size = 1 << bits;
-    const int columns = (dims.x + size - 1) >> bits, rows = (dims.y + size - 1) >> bits;
-    const int left = i % columns << bits, top = i / columns % rows << bits,
-              front = i / columns / rows << bits;
-    const int right = min(left + size, dims.x), bottom = min(top + size, dims.y),
-              back = min(front + size, dims.z);
-    for (int z = front; z < back; z++)
-        for (int y = top; y < bottom; y++)
-            for (int x = left; x < right; x++)
-                if (!cells[z * part->cell_slice + y * part->cell_row + x])
-                    return 1;
-    return 0;
+#if FILTERS & FILTERS_CUBIC
+// Likewise, where a cubic filter reaches into other cells.
+static void load_reachable(real *low, real *high, __constant struct part *part,
+                           __global const float2 *ranges, int at, int count) {
+    float lows[LANES], highs[LANES];
+    const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
+                                   count / part->cell_slice};
+    for (int lane = 0; lane < LANES; lane++) {
+        const float2 range = reachable(part, ranges, dims, min(at + lane, count - 1), 0);
+        lows[lane] = range.x;
+        highs[lane] = range.y;
+    }
+    *low = LOAD_LANES(lows);
+    *high = LOAD_LANES(highs);
+}
+#endif
+
+// Leaves 0 in those of LANES cells from cell `at` on, of a part's `count`, in which something may be visible, else `empty`.
+static void find_cells(__constant struct world *world, __constant struct part *part,
+                       __global const float2 *values, __global const uint *next,
+                       __global uchar *out, int at, int count, bool linear, uint empty) {
+    real low, high;
+#if FILTERS & FILTERS_CUBIC
+    if (part->filter & FILTERS_CUBIC)
+        load_reachable(&low, &high, part, values + part->ranges, at, count);
+    else
+#endif
+        load_ranges(&low, &high, values + part->ranges, at, count);
+    const mask seen = occupied(part, low, high, next + part->visible, linear);
+    const integer found = CHOOSE((integer)((int)empty), (integer)(0), seen);
+#if LANES > 1 && !MASKED
+    if (at + LANES <= count) {
+        *(__global loose_bytes *)(out + at) = LANES_JOIN(convert_uchar, LANES)(found);
+        return;
+    }
+#endif
+    int cells[LANES];
+    STORE_LANES(found, cells);
+    for (int lane = 0; lane < LANES && at + lane < count; lane++) {
+#if MASKED
+        const int i = at + lane;
+        if (cells[lane] == 0 && mask_empties(world, part, values, i % part->cell_row,
+                                             i % part->cell_slice / part->cell_row, i / part->cell_slice))
+            cells[lane] = (int)empty;
+#endif
+        out[at + lane] = (uchar)cells[lane];
+    }
 }
 
-#if SKIP == SKIP_BLOCKS
+#if SKIP == SKIP_DISTANCE
+#include "distance.cl"
+#elif SKIP == SKIP_OCTREE
+#include "nodes.cl"
+#elif SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
 #include "bins.cl"
 #endif
-
-#include "nodes.cl"
 #if ADAPTIVE
 #include "stride_cells.cl"
 #endif
 
 // One pass over the `count` cells of a part, from `in` to `out`, in which empty cells hold `empty`
 // at first. `linear` tells that the kernel interpolates between table entries. One kernel for all
-// passes, because each one more costs a cold start an eighth of a second.
+// passes that this way to skip needs, because each one more costs a cold start an eighth of a second.
 __kernel void occupancy(__constant struct world *world, __global const float2 *ranges,
                         __global const uint *visible, __global const uchar *in, __global uchar *out,
                         const uint part_index, const uint count, const uint linear, const uint pass,
@@ -186,7 +192,9 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
         return;
     __constant struct part *part = &world->parts[part_index];
     if (pass == PASS_OCCUPY) {
-        out[part->cells + i] = find_cell(world, part, ranges, visible, count, (int)i, linear, (uchar)empty);
+        const int end = min((int)i * CELL_CHUNK + CELL_CHUNK, (int)count);
+        for (int at = (int)i * CELL_CHUNK; at < end; at += LANES)
+            find_cells(world, part, ranges, visible, out + part->cells, at, (int)count, linear, empty);
         return;
     }
     const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
@@ -210,19 +218,19 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     if (pass == PASS_VISIBLE)
         out[i] = visible_bins(part, visible + part->visible);
     else if (pass == PASS_CORNER)
-        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0, 0), visible + part->visible, linear);
+        out[i] = corner_visible(part, ranges + part->ranges, visible + part->visible, dims, linear);
     else if (pass >= PASS_BINS)
         out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS), empty);
-    else
-#endif
+#elif SKIP == SKIP_BVH
+    out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
+#elif SKIP == SKIP_OCTREE
     if (pass == PASS_NAME)
-        out[i] = name_node(part, in, dims, (int)i);
-    else if (pass >= PASS_BRICK)
-        out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
-    else if (pass > PASS_MERGE)
-        merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
+        name_nodes(part, in, out, dims, (int)i);
     else
-        spread(part, in, out, dims, (int)i, pass);
+        merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
+#elif SKIP == SKIP_DISTANCE
+    spread(in, out, dims, (int)i, (int)pass);
+#endif
 }
 
 #endif

@@ -188,23 +188,23 @@ static bool fill_parts(struct pel_world *world, const struct pel_scene *scene,
     return true;
 }
 
-// Appends the counts of visible entries for the table that starts at `start`: one more than it has
-// entries.
-static bool count_visible(struct pel_world *world, const u32 *start, size_t entries,
-                          struct part *part) {
+// Appends the first visible entry from each one on, for the table that starts at `start` and from
+// behind it, too; where there is none, it is the one behind the table.
+static bool list_visible(struct pel_world *world, const u32 *start, size_t entries,
+                         struct part *part) {
     size_t words = world->visible_words + entries + 1;
     u32 *visible = realloc(world->visible, words * sizeof *visible);
     if (!visible)
         return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
     world->visible = visible;
     part->visible = (u32)world->visible_words;
-    u32 *counts = visible + world->visible_words;
-    counts[0] = 0;
-    for (size_t i = 0; i < entries; i++) {
+    u32 *next = visible + world->visible_words;
+    next[entries] = (u32)entries;
+    for (size_t i = entries; i-- > 0;) {
         float strength;
         memcpy(&strength, &start[PEL_STRENGTH_WORDS * i], sizeof strength);
         bool glows = world->models & MODELS_THESIS && start[PEL_STRENGTH_WORDS * i + 1] != 0;
-        counts[i + 1] = counts[i] + (strength > 0 || glows);
+        next[i] = strength > 0 || glows ? (u32)i : next[i + 1];
     }
     world->visible_words = words;
     return true;
@@ -242,7 +242,7 @@ static bool fill_table(struct pel_world *world, const struct pel_scene *scene,
     world->table_words = words;
     int last = pairs ? PAIR_ENTRIES - 1 : (int)memo->entries - 2;
     fill_table_address(part, scene->volumes[instance->volume], &ends, last, layout->reader);
-    return count_visible(world, memo->seen, memo->seen_entries, part);
+    return list_visible(world, memo->seen, memo->seen_entries, part);
 }
 
 // Builds every visible instance's table, so that the kernel's way of reading them can be decided.

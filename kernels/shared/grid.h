@@ -17,11 +17,18 @@
 #define CELL_VOXELS (1 << CELL_BITS)
 
 // No distance is larger than this, in cells.
-#define CELL_DISTANCE_MAX 63
+#define CELL_DISTANCE_MAX 31
 
-// Which pass over the cells finds the empty ones; 0, 1 and 2 spread distances along x, y and z. For an octree, pass
+// Bytes behind all cells that may be read with the last of them.
+#define CELL_SLACK 15
+
+// Cells of which one work-item finds out whether they are empty.
+#define CELL_CHUNK 16
+
+// Which pass over the cells finds the empty ones, PASS_OCCUPY, by CELL_CHUNK a work-item. PASS_ROW spreads distances along
+// rows, one a work-item; PASS_COLUMN and PASS_SLICE spread them along y, and along z, by CELL_CHUNK. For an octree, pass
 // PASS_MERGE + l joins eight empty nodes of level l - 1 to one of level l, in the node's first cell, and PASS_NAME tells
-// every cell of the largest node that it lies in. Pass PASS_BRICK + b finds the bricks of 2^b cells along a side, one
+// every cell of the largest node that it lies in; each row of nodes, or of cells, is one work-item's. Pass PASS_BRICK + b finds the bricks of 2^b cells along a side, one
 // after the other, in which some cell is not empty.
 //
 // For blocks (shared/block.h), PASS_VISIBLE finds the bins of the table of which something can be seen and PASS_CORNER
@@ -29,6 +36,9 @@
 // such brick touch; and PASS_SEEN keeps those of the stored sub-blocks in which some cell is not empty.
 //
 // PASS_STRIDE finds how long a run of samples may be that begins in each cell (kernels/stride_cells.cl).
+#define PASS_ROW 0
+#define PASS_COLUMN 1
+#define PASS_SLICE 2
 #define PASS_OCCUPY 3
 #define PASS_NAME 4
 #define PASS_VISIBLE 5
