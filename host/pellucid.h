@@ -7,13 +7,34 @@
 //     struct pel_image *image = pel_renderer_render(renderer, scene, NULL, NULL);
 //     pel_image_save(image, "head.png", NULL);
 //
+// The sections of this file, and what they are about:
+//
+//     Errors                     codes, sentences and warnings; the library's version and clock
+//     Geometry                   matrices
+//     Volumes                    voxels: reading, making, changing, measuring and writing them
+//     Transfer functions         from values to colour and opacity
+//     Cameras, Stereo            where a scene is seen from, by one eye or by two
+//     Rigid transforms           how one volume lies on another: ITK's, FSL's and plain files
+//     Volumes in a scene         what a volume looks like: model, filter, material, clips, mask
+//     Light                      lamps, shadows, ambient occlusion
+//     How a picture is rendered  size, steps, mixing, skipping, supersampling
+//     Scenes                     all of the above together: reading, making and writing it
+//     Changing scenes            adding, removing, moving and reloading volumes
+//     Animations                 frames and keyframes
+//     Asking about scenes        bounds, the cameras of two eyes, bricks
+//     Devices, Rendering         the renderer, from a scene to a picture
+//     Probing a ray              what the ray of one pixel meets
+//     Hypertextures              volumes that a recipe makes (Perlin & Hoffert 1989)
+//     Images, Videos             writing what was rendered
+//
 // Rules that hold everywhere:
 // - World space is right-handed, in millimetres, RAS+ (x to the patient's right, y anterior, z
 //   superior), as NIfTI has it. Voxel (i,j,k) is centred at index (i,j,k).
 // - Matrices are row-major `m[row][column]` and act on column vectors: p_world = m * p_voxel.
 // - A function that can fail returns false or NULL. pel_error_code() and pel_error_message() then
-//   tell this thread why, in one sentence without full stop. The library never prints, exits or
-//   aborts.
+//   tell this thread why, in one sentence without full stop. Descriptions name the codes that are a
+//   function's own, without PEL_ERROR_; MEMORY is possible wherever something is made. The library
+//   never prints, exits or aborts.
 // - `create`, `load`, `generate` and `copy` return an object the caller owns and gives back to the
 //   matching `destroy`. Every destroy function accepts NULL.
 // - Options are structs passed by pointer. A member that is zero takes its default, and NULL takes
@@ -66,7 +87,7 @@ PEL_API const char *pel_error_message(void);
 typedef void (*pel_warning_callback)(const char *message, void *user);
 
 // Registers who receives warnings, for the whole process; NULL (the default) drops them. Call it
-// before other threads use the library.
+// before other threads use the library: the callback comes from whichever thread has to say it.
 PEL_API void pel_on_warning(pel_warning_callback callback, void *user);
 
 // The library's version, "major.minor.patch".
@@ -117,12 +138,12 @@ struct pel_volume {
     int shares;   // how many hold it besides the first: see pel_volume_share
 };
 
-// How to read a file. Zero-initialise for the defaults.
 // Whether values are labels. By itself, as the file says; a file without a way to say so, such as
 // a TIFF, is a label map when its name (a word such as "labels" or "seg") and its values
 // (pel_volume_seems_labels) agree. Colours never are.
 enum pel_label_choice { PEL_LABELS_AUTO, PEL_LABELS_YES, PEL_LABELS_NO };
 
+// How to read a file. Zero-initialise for the defaults.
 struct pel_load_options {
     // Which part of a file with more than three dimensions to take, counted from 0.
     int time, channel;
@@ -154,6 +175,7 @@ PEL_API struct pel_volume *pel_volume_load(const char *path,
 PEL_API bool pel_volume_seems_labels(const struct pel_volume *volume);
 
 // Makes a volume of undefined voxels: 1 mm spacing, voxel (0,0,0) at the world's origin, slope 1.
+// Fails (FORMAT) unless each of dims is in 1..65536.
 PEL_API struct pel_volume *pel_volume_create(const char *name, const int dims[3],
                                              enum pel_voxel_type type);
 PEL_API void pel_volume_destroy(struct pel_volume *volume);
@@ -167,7 +189,8 @@ PEL_API size_t pel_voxel_bytes(enum pel_voxel_type type);
 PEL_API size_t pel_volume_voxel_count(const struct pel_volume *volume);
 PEL_API size_t pel_volume_bytes(const struct pel_volume *volume);
 
-// "uint8", "int8", "uint16", "int16", "float32", "rgb8", "rgba8", and back; false for other names.
+// "uint8", "int8", "uint16", "int16", "float32", "rgb8", "rgba8", and back; false (ARGUMENT) for
+// other names.
 PEL_API const char *pel_voxel_type_name(enum pel_voxel_type type);
 PEL_API bool pel_voxel_type_from_name(const char *name, enum pel_voxel_type *type);
 
@@ -188,7 +211,7 @@ struct pel_statistics {
     double percentiles[101];                // percentiles[p]: p percent of the values are <= it
 };
 
-// Goes over all voxels once or twice. A volume without any present voxel has min = max = 0.
+// Measures all voxels. A volume without any present voxel has min = max = 0.
 PEL_API void pel_volume_measure(const struct pel_volume *volume, struct pel_statistics *statistics);
 
 // New volumes from old; the source stays as it is. Values keep their meaning (slope, unit) and
@@ -198,6 +221,8 @@ PEL_API void pel_volume_measure(const struct pel_volume *volume, struct pel_stat
 // - downsample: mean over blocks of factor^3 voxels (nearest for labels)
 // - convert: to another type; values that do not fit are clamped, with a warning that counts them.
 //   From a float type to an integer one slope and intercept are chosen to use the whole range.
+// They fail (ARGUMENT) where `first` and `dims` are not inside the source, or a number of voxels or
+// the factor is below 1.
 PEL_API struct pel_volume *pel_volume_crop(const struct pel_volume *source, const int first[3],
                                            const int dims[3]);
 PEL_API struct pel_volume *pel_volume_resample(const struct pel_volume *source, const int dims[3]);
@@ -207,6 +232,7 @@ PEL_API struct pel_volume *pel_volume_convert(const struct pel_volume *source,
 
 // Writes a volume, as the extension says: .nrrd .nhdr .nii .nii.gz .tif/.tiff .mhd .mha
 // .raw (+ sidecar NAME.raw.json). Written to a temporary beside `path` and renamed at the end.
+// Fails (ARGUMENT) for another extension, and (FILE).
 PEL_API bool pel_volume_save(const struct pel_volume *volume, const char *path);
 
 // A synthetic volume. `kind` is one of pel_generator_names.
@@ -222,7 +248,9 @@ struct pel_generate_options {
 // "marschner-lobb" (Marschner & Lobb 1994), "shepp-logan" (the 3-D head), "head-ct" and "head-mri"
 // (one synthetic head, the MRI displaced by a known rigid transform), "head-labels" (its tissues: 1
 // skin, 2 muscle, 3 bone, 4 marrow, 5 teeth, 6 fluid, 7 grey and 8 white matter, 9 eye, 10 lens),
-// "head-pair" (the CT, or with `second` the MRI). The list ends with NULL.
+// "head-pair" (the CT, or with `second` the MRI). The list ends with NULL. `options` may be NULL.
+// Fails (ARGUMENT) for an unknown kind, a size beyond 65536, another type, or `second` of a kind
+// that is no pair.
 PEL_API const char *const *pel_generator_names(void);
 PEL_API struct pel_volume *pel_volume_generate(const char *kind,
                                                const struct pel_generate_options *options);
@@ -257,15 +285,18 @@ struct pel_transfer {
 };
 
 // Ready-made transfer functions by name; the list ends with NULL. "grey", "hot", "viridis",
-// "rainbow" (the thesis's), "ct-bone", "ct-soft-tissue", "mri", "green", "magenta", ...
+// "rainbow" (Romero 2009), "ct-bone", "ct-soft-tissue", "mri", "green", "magenta", ... Fails
+// (ARGUMENT) for another name, with the nearest one.
 PEL_API const char *const *pel_transfer_presets(void);
 PEL_API struct pel_transfer *pel_transfer_preset(const char *name);
 
-// Reads a transfer function: Pellucid's own JSON, or ParaView's colour-map JSON.
+// Reads a transfer function: Pellucid's own JSON, or ParaView's colour-map JSON. Fails (FILE,
+// FORMAT; UNSUPPORTED for a colour map without RGBPoints or in an unknown colour space).
 PEL_API struct pel_transfer *pel_transfer_load(const char *path);
 
-// Writes one as Pellucid's own JSON, through a temporary that is renamed at the end.
+// Writes one as Pellucid's own JSON, through a temporary that is renamed at the end. Fails (FILE).
 PEL_API bool pel_transfer_save(const struct pel_transfer *transfer, const char *path);
+
 PEL_API struct pel_transfer *pel_transfer_copy(const struct pel_transfer *transfer);
 PEL_API void pel_transfer_destroy(struct pel_transfer *transfer);
 
@@ -297,7 +328,9 @@ struct pel_bounds {
 
 // Looks at the bounds from a named side so that all of them are in the picture. `view` is one of
 // "anterior", "posterior", "left", "right", "superior", "inferior" (the radiologist's names: seen
-// *from* there) or "oblique". `aspect` is width / height. ARGUMENT for another name.
+// *from* there) or "oblique". `aspect` is width / height. The camera keeps its field of view (0: 30
+// degrees) and whether it is orthographic. Fails (ARGUMENT) for another name, and for bounds, an
+// aspect or a field of view that are none.
 PEL_API bool pel_camera_fit(struct pel_camera *camera, const char *view,
                             const struct pel_bounds *bounds, double aspect);
 
@@ -372,16 +405,18 @@ PEL_API const char *const *pel_stereo_names(void);
 // points of the fixed image to the moving one in LPS, so the result is their inverse in RAS: it
 // moves the moving volume onto the fixed. FSL's .mat maps between scaled voxel spaces and needs
 // both volumes (`moving`, `fixed`); ARGUMENT if one is missing, but a .mat given neither is taken
-// as a plain 4x4, with a warning. FORMAT if the result is not a rotation and translation.
+// as a plain 4x4, with a warning. FORMAT if the result is not a rotation and translation; FILE;
+// UNSUPPORTED for ITK's other kinds of transforms.
 PEL_API bool pel_transform_load(struct pel_matrix *world_from_world, const char *path,
                                 const struct pel_volume *moving, const struct pel_volume *fixed);
 
 // Writes one, as the extension says: .tfm (ITK Euler3D), .mat (FSL, needs both volumes), or .txt
-// (4x4).
+// (4x4). Fails (ARGUMENT) when it is no rotation and translation, for another extension, or without
+// the volumes that FSL needs; and (FILE).
 PEL_API bool pel_transform_save(const struct pel_matrix *world_from_world, const char *path,
                                 const struct pel_volume *moving, const struct pel_volume *fixed);
 
-// ---- Scenes ------------------------------------------------------------------------------------
+// ---- Volumes in a scene ------------------------------------------------------------------------
 
 // Where a volume's box ends: half a voxel beyond the outer voxel centres, with clamp-to-edge
 // interpolation there, or at the centres as VTK and OpenVKL have it.
@@ -394,20 +429,6 @@ enum pel_filter {
     PEL_FILTER_NEAREST,
     PEL_FILTER_CUBIC_B_SPLINE,
     PEL_FILTER_CATMULL_ROM,
-};
-
-// How overlapping volumes share one sample. docs/mixing.md has formulae, pictures and sources.
-enum pel_mixing {
-    PEL_MIX_SUM,  // extinctions add, colour is the extinction-weighted mean; order does not matter
-    PEL_MIX_OVER, // blended front to back at each sample in the order of the list
-    PEL_MIX_ORDERED,  // each volume keeps its own step; samples are blended as they come on the ray
-    PEL_MIX_MAX,      // the volume of the greatest extinction hides the others
-    PEL_MIX_PRIORITY, // the volume of the greatest `priority` that shows anything hides the others
-    // Of constructive solid geometry, on extinctions; colours are means as in sum, of difference
-    // the first volume's.
-    PEL_MIX_UNION,        // the greatest
-    PEL_MIX_INTERSECTION, // the least, of all visible volumes
-    PEL_MIX_DIFFERENCE,   // the first visible volume's less all others'
 };
 
 // How light is gathered in a volume along a ray. docs/picture.md, "Optical models", has the
@@ -423,8 +444,9 @@ enum pel_model {
     PEL_MODEL_THESIS,     // Romero 2009: opacity per sample, not per length. Wrong by design
 };
 
-// From which end the samples of a ray are put together.
-enum pel_order { PEL_ORDER_FRONT_TO_BACK, PEL_ORDER_BACK_TO_FRONT };
+// The names of the optical models, "default" first, in the order of the enum; the list ends with
+// NULL.
+PEL_API const char *const *pel_model_names(void);
 
 #define PEL_SURFACE_MAX 4
 
@@ -435,39 +457,6 @@ struct pel_surface {
     bool coloured;  // it has a colour of its own; otherwise the transfer function's
     double rgb[3];  // straight, 0..1
 };
-// The names of the optical models, "default" first, in the order of the enum; the list ends with
-// NULL.
-PEL_API const char *const *pel_model_names(void);
-
-// The names of the kinds of mixing in the order of the enum; the list ends with NULL.
-PEL_API const char *const *pel_mixing_names(void);
-
-// Where the samples of a ray are counted from.
-enum pel_sample_origin {
-    PEL_ORIGIN_VOLUMES, // the nearest entry into any visible volume's own box
-    PEL_ORIGIN_BOUNDS,  // the entry into the world-axis-aligned bounds of all visible volumes, as
-                        // VTK
-};
-
-// How a volume is shaded: not at all, or with highlights where the half-way vector between light
-// and viewer (Blinn 1977) or the mirrored light (Phong 1975) is near the normal.
-enum pel_shading { PEL_SHADING_NONE, PEL_SHADING_BLINN_PHONG, PEL_SHADING_PHONG };
-
-#define PEL_LIGHT_AMOUNT_MAX 1000.0 // of ambient, diffuse, specular, and light
-#define PEL_SHININESS_MAX 1000.0
-
-// How light changes a volume's colours: c' = c (ambient + diffuse |n.l|) + specular |n.h|^shininess
-// (docs/picture.md, "Shading"). Opacity stays. When all four numbers are zero they are those of
-// pel_material_default.
-struct pel_material {
-    enum pel_shading shading;
-    bool one_sided; // light that comes from the side of greater values does not count
-    double ambient, diffuse, specular; // 0..PEL_LIGHT_AMOUNT_MAX
-    double shininess;                  // 1..PEL_SHININESS_MAX
-};
-
-// VTK's and ours: ambient 0.1, diffuse 0.7, specular 0.2, shininess 10, two-sided.
-PEL_API struct pel_material pel_material_default(enum pel_shading shading);
 
 // How gradients are found: from values one voxel away along the volume's axes, the same smoothed
 // across them (Sobel), or as the derivative of the filter itself.
@@ -490,6 +479,26 @@ struct pel_gradient_point {
 struct pel_silhouette {
     double base, strength, exponent;
 };
+
+// How a volume is shaded: not at all, or with highlights where the half-way vector between light
+// and viewer (Blinn 1977) or the mirrored light (Phong 1975) is near the normal.
+enum pel_shading { PEL_SHADING_NONE, PEL_SHADING_BLINN_PHONG, PEL_SHADING_PHONG };
+
+#define PEL_LIGHT_AMOUNT_MAX 1000.0 // of ambient, diffuse, specular, and light
+#define PEL_SHININESS_MAX 1000.0
+
+// How light changes a volume's colours: c' = c (ambient + diffuse |n.l|) + specular |n.h|^shininess
+// (docs/picture.md, "Shading"). Opacity stays. When all four numbers are zero they are those of
+// pel_material_default.
+struct pel_material {
+    enum pel_shading shading;
+    bool one_sided; // light that comes from the side of greater values does not count
+    double ambient, diffuse, specular; // 0..PEL_LIGHT_AMOUNT_MAX
+    double shininess;                  // 1..PEL_SHININESS_MAX
+};
+
+// VTK's and ours: ambient 0.1, diffuse 0.7, specular 0.2, shininess 10, two-sided.
+PEL_API struct pel_material pel_material_default(enum pel_shading shading);
 
 #define PEL_CLIP_MAX 8
 
@@ -525,7 +534,8 @@ struct pel_mask {
 };
 
 // The values of a mask as text: numbers, ranges such as 3..5, and >=0.5, with commas between them.
-// Reading fails (ARGUMENT) and leaves the mask alone when the text is none; writing cuts it.
+// Reading fails (ARGUMENT) and leaves the mask alone when the text is none of these; writing cuts
+// what has no room in `bytes`.
 PEL_API bool pel_mask_read_values(struct pel_mask *mask, const char *text);
 PEL_API void pel_mask_write_values(const struct pel_mask *mask, char *text, size_t bytes);
 
@@ -556,6 +566,8 @@ struct pel_instance {
     struct pel_mask mask;
 };
 
+// ---- Light -------------------------------------------------------------------------------------
+
 #define PEL_LIGHT_MAX 8
 
 enum pel_light_kind {
@@ -572,6 +584,58 @@ struct pel_light {
     double colour[3], intensity;      // their product is in 0..PEL_LIGHT_AMOUNT_MAX
 };
 
+#define PEL_SECONDARY_STEP_MIN 0.25
+#define PEL_SECONDARY_STEP_MAX 64.0
+
+// Light on shaded volumes has come through all volumes on its way (docs/picture.md, "Shadows and
+// ambient occlusion"). Costs a ray for every light of every sample: for stills.
+struct pel_shadows {
+    bool on;
+    double length_mm; // how far away what casts a shadow may be; 0 = anywhere
+    double step;      // of these rays, in steps of the picture; 0 = 2
+    double strength;  // share of the light that shadows take, up to 1; 0 = 1
+};
+
+#define PEL_OCCLUSION_DIRECTION_MAX 64
+
+// Shaded volumes are darker where much of what is around is hidden by something near.
+struct pel_ambient_occlusion {
+    bool on;
+    int directions;   // rays from every sample, up to PEL_OCCLUSION_DIRECTION_MAX; 0 = 16
+    double radius_mm; // how far they look; 0 = a tenth of the diagonal of all volumes
+    double step;      // of these rays, in steps of the picture; 0 = 2
+    double strength;  // share of the light that is taken, up to 1; 0 = 1
+};
+
+// ---- How a picture is rendered -----------------------------------------------------------------
+
+// How overlapping volumes share one sample. docs/mixing.md has formulae, pictures and sources.
+enum pel_mixing {
+    PEL_MIX_SUM,  // extinctions add, colour is the extinction-weighted mean; order does not matter
+    PEL_MIX_OVER, // blended front to back at each sample in the order of the list
+    PEL_MIX_ORDERED,  // each volume keeps its own step; samples are blended as they come on the ray
+    PEL_MIX_MAX,      // the volume of the greatest extinction hides the others
+    PEL_MIX_PRIORITY, // the volume of the greatest `priority` that shows anything hides the others
+    // Of constructive solid geometry, on extinctions; colours are means as in sum, of difference
+    // the first volume's.
+    PEL_MIX_UNION,        // the greatest
+    PEL_MIX_INTERSECTION, // the least, of all visible volumes
+    PEL_MIX_DIFFERENCE,   // the first visible volume's less all others'
+};
+
+// The names of the kinds of mixing in the order of the enum; the list ends with NULL.
+PEL_API const char *const *pel_mixing_names(void);
+
+// From which end the samples of a ray are put together.
+enum pel_order { PEL_ORDER_FRONT_TO_BACK, PEL_ORDER_BACK_TO_FRONT };
+
+// Where the samples of a ray are counted from.
+enum pel_sample_origin {
+    PEL_ORIGIN_VOLUMES, // the nearest entry into any visible volume's own box
+    PEL_ORIGIN_BOUNDS,  // the entry into the world-axis-aligned bounds of all visible volumes, as
+                        // VTK
+};
+
 // How empty space is skipped. The picture is the same with each.
 enum pel_skip {
     PEL_SKIP_AUTO,     // what is fastest as a rule (docs/skipping.md): mostly distance
@@ -583,6 +647,9 @@ enum pel_skip {
     PEL_SKIP_BLOCKS,   // from block to block beside it, and by the sub-blocks in them
 };
 
+// Room for the reason of a choice.
+enum { PEL_SKIP_REASON_BYTES = 64 };
+
 // Whether only those bricks of 16^3 voxels are on the device in which something can be seen. They
 // are read through a table; the picture is the same.
 enum pel_pool_use {
@@ -590,8 +657,6 @@ enum pel_pool_use {
     PEL_POOL_OFF,
     PEL_POOL_ON,
 };
-
-enum { PEL_SKIP_REASON_BYTES = 64 };
 
 // The cubes of voxels in which PEL_SKIP_BVH (Ganter & Manzke 2019) and PEL_SKIP_BLOCKS (Derin et
 // al. 2021; its sub-blocks) look for what is visible.
@@ -631,6 +696,18 @@ struct pel_supersampling {
                      // any channel, 0..1, get n x n rays, and the others one; 0 = all pixels do
 };
 
+// Whether volumes are shown coarser than they are, where the picture does not show the difference
+// (docs/picture.md, "Level of detail"). A renderer makes levels when they are first needed and
+// keeps them while their volumes stay in the scene; where a frame needs other levels than the one
+// before, all voxels are sent to the device anew.
+enum pel_lod {
+    PEL_LOD_OFF,   // as they are
+    PEL_LOD_AUTO,  // each at the level at which its voxels are about as large as a pixel
+    PEL_LOD_LEVEL, // all at `lod_level`
+};
+
+#define PEL_LOD_LEVEL_MAX 15
+
 // What a picture shows of each pixel's ray instead of its light: a number, as a heat map. One ray
 // goes through each pixel's centre, whatever the supersampling.
 enum pel_debug {
@@ -645,41 +722,8 @@ enum pel_debug {
     PEL_DEBUG_NODES,      // and nodes of the hierarchy over them
 };
 
-#define PEL_SECONDARY_STEP_MIN 0.25
-#define PEL_SECONDARY_STEP_MAX 64.0
-
-// Light on shaded volumes has come through all volumes on its way (docs/picture.md, "Shadows and
-// ambient occlusion"). Costs a ray for every light of every sample: for stills.
-struct pel_shadows {
-    bool on;
-    double length_mm; // how far away what casts a shadow may be; 0 = anywhere
-    double step;      // of these rays, in steps of the picture; 0 = 2
-    double strength;  // share of the light that shadows take, up to 1; 0 = 1
-};
-
-#define PEL_OCCLUSION_DIRECTION_MAX 64
-
-// Shaded volumes are darker where much of what is around is hidden by something near.
-struct pel_ambient_occlusion {
-    bool on;
-    int directions;   // rays from every sample, up to PEL_OCCLUSION_DIRECTION_MAX; 0 = 16
-    double radius_mm; // how far they look; 0 = a tenth of the diagonal of all volumes
-    double step;      // of these rays, in steps of the picture; 0 = 2
-    double strength;  // share of the light that is taken, up to 1; 0 = 1
-};
-
-// Whether volumes are shown coarser than they are, where the picture does not show the difference
-// (docs/picture.md, "Level of detail"). A renderer makes levels when they are first needed and
-// keeps them while their volumes stay in the scene; where a frame needs other levels than the one
-// before, all voxels are sent to the device anew.
-enum pel_lod {
-    PEL_LOD_OFF,   // as they are
-    PEL_LOD_AUTO,  // each at the level at which its voxels are about as large as a pixel
-    PEL_LOD_LEVEL, // all at `lod_level`
-};
-
-#define PEL_LOD_LEVEL_MAX 15
-
+// Everything about a picture that is neither a volume's nor a camera's. pel_scene_create has the
+// defaults.
 struct pel_render_settings {
     int width, height;      // pixels
     int region[4];          // the part of it that is rendered: left and top edge, width and height
@@ -709,6 +753,8 @@ struct pel_render_settings {
     int lod_level;    // 0..PEL_LOD_LEVEL_MAX: voxels of 2^level times their shortest side
 };
 
+// ---- Scenes ------------------------------------------------------------------------------------
+
 #define PEL_WALL_MAX 32
 
 // One window or monitor of a display wall.
@@ -724,6 +770,7 @@ struct pel_wall {
     struct pel_wall_region regions[PEL_WALL_MAX];
 };
 
+// Where a scene says that its picture goes.
 struct pel_output_settings {
     char path[1024];    // "" when the scene names none
     int depth;          // of PNG: 8 or 16
@@ -792,44 +839,23 @@ PEL_API struct pel_scene *pel_scene_from_files(const char *const *paths, int pat
                                                const char *const *overrides, int override_count);
 PEL_API void pel_scene_destroy(struct pel_scene *scene);
 
-// Makes a scene with an animation show another frame, whole or between two: it is as if it had been
-// loaded with the values of that frame, but volumes that stay are not loaded again, so that nothing
-// of them is sent to a device anew. What the caller changed in the scene since is lost. Fails
-// (ARGUMENT) when there is no animation or no such frame, and like pel_scene_load when a value
-// cannot be; the scene then stays as it was.
-PEL_API bool pel_scene_set_frame(struct pel_scene *scene, double frame);
-
-// A viewpoint and when the camera is there.
-struct pel_keyframe {
-    double time_s; // from the first frame
-    struct pel_camera camera;
-};
-
-// Makes recorded viewpoints, in the order of their times, the way of the scene's camera, in place
-// of what moved it before; none takes its motion away. Other tracks stay. What was changed in the
-// scene since it was loaded is now what its animation acts upon, and no longer lost in
-// pel_scene_set_frame. Fails (ARGUMENT) when times do not ascend or a volume came from no file; the
-// scene then stays as it was.
-PEL_API bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
-                                     int count, double fps);
-
-// Reads back the viewpoints of the way of the scene's camera, as pel_scene_set_keyframes or a file
-// put them there: `most` of them at most. Returns how many there are; 0 when the camera moves by
-// other tracks (orbits, named views, single members), or not at all.
-PEL_API int pel_scene_keyframes(const struct pel_scene *scene, struct pel_keyframe *keyframes,
-                                int most);
-
-// What was changed in the scene since it was loaded becomes what its animation acts upon, so that
-// pel_scene_set_frame does not lose it. Fails like pel_scene_set_keyframes, with the scene as it
-// was.
-PEL_API bool pel_scene_rebase(struct pel_scene *scene);
-
 // An empty scene with every default, to be filled by a program. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_create(void);
 
 // A scene that can be changed without changing this one. Both share their volumes, so it is cheap:
 // a viewer can keep one for each step that may be undone. NULL: MEMORY.
 PEL_API struct pel_scene *pel_scene_copy(const struct pel_scene *scene);
+
+// The scene as JSON: what pel_scene_save writes to `path`, whose folder the files in it are
+// relative to. NULL gives it compact, with absolute paths, as for the text in a picture. Memory to
+// free(), or NULL on failure (MEMORY; ARGUMENT when a volume came from no file).
+PEL_API char *pel_scene_text(const struct pel_scene *scene, const char *path);
+
+// Writes a scene file, through a temporary that is renamed at the end. Loading it gives a scene
+// that renders to the same picture.
+PEL_API bool pel_scene_save(const struct pel_scene *scene, const char *path);
+
+// ---- Changing scenes ---------------------------------------------------------------------------
 
 // Puts a volume at the end of the list, with an automatic transfer function, as for files given in
 // place of a scene. The scene shares the volume, so the caller still destroys it. `source`, which
@@ -866,14 +892,41 @@ PEL_API bool pel_scene_reload(struct pel_scene *scene, int volume);
 // errors.
 PEL_API void pel_scene_set_quality(struct pel_scene *scene, double quality);
 
-// The scene as JSON: what pel_scene_save writes to `path`, whose folder the files in it are
-// relative to. NULL gives it compact, with absolute paths, as for the text in a picture. Memory to
-// free(), or NULL on failure (MEMORY; ARGUMENT when a volume came from no file).
-PEL_API char *pel_scene_text(const struct pel_scene *scene, const char *path);
+// ---- Animations --------------------------------------------------------------------------------
 
-// Writes a scene file, through a temporary that is renamed at the end. Loading it gives a scene
-// that renders to the same picture.
-PEL_API bool pel_scene_save(const struct pel_scene *scene, const char *path);
+// Makes a scene with an animation show another frame, whole or between two: it is as if it had been
+// loaded with the values of that frame, but volumes that stay are not loaded again, so that nothing
+// of them is sent to a device anew. What the caller changed in the scene since is lost. Fails
+// (ARGUMENT) when there is no animation or no such frame, and like pel_scene_load when a value
+// cannot be; the scene then stays as it was.
+PEL_API bool pel_scene_set_frame(struct pel_scene *scene, double frame);
+
+// A viewpoint and when the camera is there.
+struct pel_keyframe {
+    double time_s; // from the first frame
+    struct pel_camera camera;
+};
+
+// Makes recorded viewpoints, in the order of their times, the way of the scene's camera, in place
+// of what moved it before; none takes its motion away. Other tracks stay. What was changed in the
+// scene since it was loaded is now what its animation acts upon, and no longer lost in
+// pel_scene_set_frame. Fails (ARGUMENT) when times do not ascend or a volume came from no file; the
+// scene then stays as it was.
+PEL_API bool pel_scene_set_keyframes(struct pel_scene *scene, const struct pel_keyframe *keyframes,
+                                     int count, double fps);
+
+// Reads back the viewpoints of the way of the scene's camera, as pel_scene_set_keyframes or a file
+// put them there: `most` of them at most. Returns how many there are; 0 when the camera moves by
+// other tracks (orbits, named views, single members), or not at all.
+PEL_API int pel_scene_keyframes(const struct pel_scene *scene, struct pel_keyframe *keyframes,
+                                int most);
+
+// What was changed in the scene since it was loaded becomes what its animation acts upon, so that
+// pel_scene_set_frame does not lose it. Fails like pel_scene_set_keyframes, with the scene as it
+// was.
+PEL_API bool pel_scene_rebase(struct pel_scene *scene);
+
+// ---- Asking about scenes -----------------------------------------------------------------------
 
 // The world bounds of one instance's box, and of all visible instances (false if there is none).
 PEL_API void pel_instance_bounds(const struct pel_scene *scene, int instance,
@@ -920,10 +973,16 @@ PEL_API bool pel_scene_choose_skip(const struct pel_scene *scene, enum pel_skip 
 
 // ---- Devices -----------------------------------------------------------------------------------
 
-enum pel_reader { PEL_READER_AUTO, PEL_READER_BUFFER, PEL_READER_IMAGE };
+// How kernels read voxels.
+enum pel_reader {
+    PEL_READER_AUTO,   // as the device likes it
+    PEL_READER_BUFFER, // from buffers, interpolated by the kernel
+    PEL_READER_IMAGE,  // from 3-D images, interpolated by the device, to its precision
+};
 
 #define PEL_DEVICE_MAX 32
 
+// What a device is, and what Pellucid can do with it.
 struct pel_device_info {
     char name[128], vendor[128], platform[128], driver[128], version[128];
     bool gpu, cpu; // neither: an accelerator
@@ -960,10 +1019,11 @@ struct pel_gl {
     void *display; // Display * or EGLDisplay
 };
 
-// `device` is an index into pel_device_list ("0"), a type ("gpu", "cpu") or part of a name; NULL
-// takes $PELLUCID_DEVICE, else the first usable GPU, else the first usable device.
+// Which device to render on, and how. Zero-initialise for the defaults.
 struct pel_renderer_options {
-    const char *device;
+    const char *device; // an index into pel_device_list ("0"), a type ("gpu", "cpu") or part of a
+                        // name; NULL = $PELLUCID_DEVICE, else the first usable GPU, else the first
+                        // usable device
     enum pel_reader reader;
     int lanes;                     // rays per work-item: 1, 4, 8 or 16; 0 = as the device likes it
     int work_group;                // work-items per work-group; 0 = as the device likes it
@@ -973,9 +1033,11 @@ struct pel_renderer_options {
     struct pel_gl gl;              // to share buffers with, where the device can; else ignored
 };
 
+// A picture. Four floats a pixel: red, green and blue multiplied by alpha, then alpha, which is in
+// 0..1.
 struct pel_image {
     int width, height;
-    float *rgba; // owned; premultiplied; rows from the top. NULL: the picture is in a buffer of
+    float *rgba; // owned; rows from the top, without padding. NULL: the picture is in a buffer of
                  // OpenGL, which only pel_render_options.gl_buffer asks for
 };
 
@@ -998,6 +1060,7 @@ struct pel_lod_statistics {
     double ms;                  // for making levels that were not there yet
 };
 
+// Room for the reason why a picture is not in OpenGL's buffer.
 enum { PEL_GL_REASON_BYTES = 128 };
 
 // What one frame took.
@@ -1039,6 +1102,7 @@ struct pel_render_statistics {
 // pel_renderer_render then fails (ARGUMENT), and the next frame is as if nothing had been.
 typedef bool (*pel_progress_callback)(double finished, void *user);
 
+// What a call for a picture may ask for. Zero-initialise for the defaults.
 struct pel_render_options {
     pel_progress_callback progress;
     void *user;
@@ -1069,6 +1133,22 @@ PEL_API struct pel_image *pel_renderer_render(struct pel_renderer *renderer,
 // Lets go of a buffer of OpenGL that pictures were left in: before its store is made anew or it is
 // deleted. It may be one that the renderer never saw.
 PEL_API void pel_renderer_forget_gl(struct pel_renderer *renderer, uint32_t gl_buffer);
+
+// Renders the pictures of both eyes, each of the scene's size, in one go. A scene without stereo
+// gives the same picture twice. The caller owns both; on failure there is neither.
+PEL_API bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_scene *scene,
+                                      const struct pel_render_options *options,
+                                      struct pel_render_statistics *statistics,
+                                      struct pel_image *eyes[2]);
+
+// Makes one picture of two of the same size, as `stereo->kind` says (`swap` is the cameras'
+// matter). ARGUMENT when the sizes differ, when a squeezed side is odd, or when a matrix is not
+// finite. With PEL_STEREO_NONE it is a copy of the left one.
+PEL_API struct pel_image *pel_stereo_compose(const struct pel_stereo *stereo,
+                                             const struct pel_image *left,
+                                             const struct pel_image *right);
+
+// ---- Probing a ray -----------------------------------------------------------------------------
 
 // A stretch of a ray with a constant set of volumes, at least one.
 struct pel_probe_span {
@@ -1107,20 +1187,6 @@ PEL_API bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_
                                 int y, struct pel_probe *probe);
 PEL_API void pel_probe_finish(struct pel_probe *probe);
 
-// Renders the pictures of both eyes, each of the scene's size, in one go. A scene without stereo
-// gives the same picture twice. The caller owns both; on failure there is neither.
-PEL_API bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_scene *scene,
-                                      const struct pel_render_options *options,
-                                      struct pel_render_statistics *statistics,
-                                      struct pel_image *eyes[2]);
-
-// Makes one picture of two of the same size, as `stereo->kind` says (`swap` is the cameras'
-// matter). ARGUMENT when the sizes differ, when a squeezed side is odd, or when a matrix is not
-// finite. With PEL_STEREO_NONE it is a copy of the left one.
-PEL_API struct pel_image *pel_stereo_compose(const struct pel_stereo *stereo,
-                                             const struct pel_image *left,
-                                             const struct pel_image *right);
-
 // ---- Hypertextures -----------------------------------------------------------------------------
 
 // How to bake a hypertexture (docs/hypertexture.md). Zero-initialise for the defaults.
@@ -1157,6 +1223,7 @@ pel_volume_hypertexture(const char *recipe, const struct pel_bake_options *optio
 
 // ---- Images ------------------------------------------------------------------------------------
 
+// How to write a picture. Zero-initialise for the defaults.
 struct pel_image_options {
     int depth;          // PNG: 8 (default) or 16 bits
     bool premultiplied; // write alpha as computed; the default is straight
@@ -1165,11 +1232,13 @@ struct pel_image_options {
     int text_count;
 };
 
+// A transparent picture. Fails (ARGUMENT) for a width or height below 1.
 PEL_API struct pel_image *pel_image_create(int width, int height);
 PEL_API void pel_image_destroy(struct pel_image *image);
 
 // Writes .png, .tif/.tiff (32-bit float RGBA) or .ppm, through a temporary that is renamed at the
-// end. The path "-" writes PPM to the standard output.
+// end. The path "-" writes PPM to the standard output. `options` may be NULL. Fails as
+// pel_image_check_path does, and (FILE) when writing fails.
 PEL_API bool pel_image_save(const struct pel_image *image, const char *path,
                             const struct pel_image_options *options);
 

@@ -1,4 +1,4 @@
-// bins.cl - which bricks can be seen, and what the sub-blocks of traverse/blocks.cl are culled by: bins of values.
+// bins.cl - what the sub-blocks of traverse/blocks.cl are culled by: bins of values.
 //
 // The entries of a part's table are divided into BLOCK_BINS bins. A sub-block has one bit for each bin that values in it
 // touch (Derin et al. 2021, section 2.3), and none where the value around the part's first corner fills it: there are no
@@ -10,24 +10,6 @@
 
 #include "shared/block.h"
 
-// 1 when brick i, of 2^bits cells along a side, has a cell that is not empty.
-static uchar find_brick(__constant struct part *part, __global const uchar *cells,
-                        struct cell_dims dims, int i, int bits) {
-    const int size = 1 << bits;
-    const int columns = (dims.x + size - 1) >> bits, rows = (dims.y + size - 1) >> bits;
-    const int left = i % columns << bits, top = i / columns % rows << bits,
-              front = i / columns / rows << bits;
-    const int right = min(left + size, dims.x), bottom = min(top + size, dims.y),
-              back = min(front + size, dims.z);
-    for (int z = front; z < back; z++)
-        for (int y = top; y < bottom; y++)
-            for (int x = left; x < right; x++)
-                if (!cells[z * part->cell_slice + y * part->cell_row + x])
-                    return 1;
-    return 0;
-}
-
-#if SKIP == SKIP_BLOCKS
 // The bins that entries from low to high are in, one bit each.
 static uint bins_between(__constant struct part *part, float low, float high) {
     const float per_entry = BLOCK_BINS / (part->table_last + 1.0f);
@@ -112,6 +94,5 @@ static uchar corner_visible(__constant struct part *part, __global const float2 
     const float2 range = reachable(part, ranges, dims, 0, 0);
     return any_lane(occupied(part, (real)(range.x), (real)(range.y), next, linear));
 }
-#endif
 
 #endif

@@ -1,10 +1,11 @@
 // classify.cl - from a raw value to what it emits and hides within one step.
 //
-// A table entry is two words: the strength as a float, and the straight colour as 10 bits each of red, green and
-// blue. Strength is the opacity of one step where a sample holds one volume at a time, and the optical
-// depth of one step where extinctions add (STRENGTH_DEPTH). It keeps a float's precision because hundreds of
-// small ones add up along a ray; a colour is only ever averaged, so a 1023rd is enough. The strength
-// comes first and alone: colours are looked up only when some lane of the packet can be seen.
+// A table entry is two words: the strength as a float, and the straight colour as 10 bits each of
+// red, green and blue. Strength is the opacity of one step where a sample holds one volume at a
+// time, and the optical depth of one step where extinctions add (STRENGTH_DEPTH). It keeps a
+// float's precision because hundreds of small ones add up along a ray; a colour is only ever
+// averaged, so a 1023rd is enough. The strength comes first and alone: colours are looked up only
+// when some lane of the packet can be seen.
 #ifndef CLASSIFY_CL
 #define CLASSIFY_CL
 

@@ -1,9 +1,10 @@
 // clip.cl - what clip planes and boxes leave of a part.
 //
-// Planes and boxes of which the inside is kept are convex, so they narrow the span of a ray in the part. A box whose
-// inside is cut away would leave two spans; there each sample is asked. Samples stay where they are. All are in world
-// space, float4 by float4 in world->cuts: planes (normal, offset), kept where normal . p + offset >= 0, then the three
-// rows of each kept box and then of each cut-away one, inside where -1 <= row . p < 1. See docs/mixing.md.
+// Planes and boxes of which the inside is kept are convex, so they narrow the span of a ray in the
+// part. A box whose inside is cut away would leave two spans; there each sample is asked. Samples
+// stay where they are. All are in world space, float4 by float4 in world->cuts: planes (normal,
+// offset), kept where normal . p + offset >= 0, then the three rows of each kept box and then of
+// each cut-away one, inside where -1 <= row . p < 1. See docs/mixing.md.
 #ifndef CLIP_CL
 #define CLIP_CL
 

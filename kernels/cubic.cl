@@ -4,7 +4,8 @@
 // Texture Filtering"): two neighbouring weights of one sign are one linear sample between the
 // voxels, times their sum. Catmull & Rom's spline (1974) has weights of both signs, so it takes its
 // 64 voxels one by one, and what a texture unit does to linear weights never gets near it. Both go
-// through fetch_part alone. Included by sample.cl. docs/picture.md, "Values".
+// through fetch_part alone. docs/picture.md, "Values".
+// Included by sample.cl.
 #ifndef CUBIC_CL
 #define CUBIC_CL
 

@@ -1,7 +1,7 @@
 // debug.cl - what a debug view shows of each ray instead of its light: a number.
 //
-// The host paints the numbers (host/render/debug.c). Rays are followed as ever, so what is counted is what a picture
-// costs.
+// The host paints the numbers (host/render/debug.c). Rays are followed as ever, so what is counted
+// is what a picture costs.
 #ifndef DEBUG_CL
 #define DEBUG_CL
 
@@ -36,15 +36,16 @@ INLINE integer crossed_spans(const struct crossing *crossing) {
             const struct cursor *cursor = &crossing->cursors[c];
             active |= MASK(cursor->first <= i) & MASK(i < cursor->end);
         }
-        // Oclgrind extends the sign of a single lane's comparison to a byte, so it is not subtracted.
+        // Oclgrind extends the sign of a single lane's comparison to a byte, so it is not
+        // subtracted.
         spans += CHOOSE((integer)(0), (integer)(1), active & more);
     }
     return spans;
 }
 
 #if SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
-// The nodes of all hierarchies whose box a ray crosses where it has samples, or their leaves alone: clusters, or blocks.
-// What is in front of the eye is not told from what opacity hides.
+// The nodes of all hierarchies whose box a ray crosses where it has samples, or their leaves alone:
+// clusters, or blocks. What is in front of the eye is not told from what opacity hides.
 INLINE integer crossed_nodes(__constant struct world *world, __global const uchar *cells,
                              const struct crossing *crossing, bool leaves) {
     integer count = (integer)(0);

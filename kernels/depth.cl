@@ -1,5 +1,5 @@
-// depth.cl - how far away it is what a ray shows: the mean distance of its samples, weighted by what each adds to the
-// ray's opacity. See docs/stereo.md, "Reprojection".
+// depth.cl - how far away it is what a ray shows: the mean distance of its samples, weighted by
+// what each adds to the ray's opacity. See docs/stereo.md, "Reprojection".
 #ifndef DEPTH_CL
 #define DEPTH_CL
 
@@ -15,8 +15,9 @@
     } while (0)
 #define STORE_DEPTH(...) store_depth(__VA_ARGS__)
 
-// Stores distances in millimetres: FLT_MAX where nothing is to be seen, 0 where it is not known how far that is, because
-// most of it is no sample's (a projection) or because samples came back to front.
+// Stores distances in millimetres: FLT_MAX where nothing is to be seen, 0 where it is not known how
+// far that is, because most of it is no sample's (a projection) or because samples came back to
+// front.
 INLINE void store_depth(__constant struct world *world, __global float4 *picture, int left, int top,
                         const struct ray *ray, const struct crossing *crossing,
                         const struct light *light) {

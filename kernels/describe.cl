@@ -131,7 +131,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, merge_linear);
     *out++ = OFFSET(struct world, merge);
     *out++ = OFFSET(struct world, merged_background);
-    *out++ = OFFSET(struct world, balls);
+    *out++ = OFFSET(struct world, nodes);
     *out++ = OFFSET(struct world, shadow_step_mm);
     *out++ = OFFSET(struct world, shadow_length_mm);
     *out++ = OFFSET(struct world, shadow_strength);

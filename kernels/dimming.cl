@@ -1,8 +1,9 @@
 // dimming.cl - how much of the light on a sample is left, by shadows and ambient occlusion.
 //
-// One loop sends all rays of a sample on their way, so that the program has a secondary ray only once. Directions around a
-// sample are the same everywhere in the world, turned to the side of its normal, and weigh by their cosine: where the
-// normal turns, light changes evenly. See docs/picture.md, "Shadows and ambient occlusion".
+// One loop sends all rays of a sample on their way, so that the program has a secondary ray only
+// once. Directions around a sample are the same everywhere in the world, turned to the side of its
+// normal, and weigh by their cosine: where the normal turns, light changes evenly. See
+// docs/picture.md, "Shadows and ambient occlusion".
 // Included by shade.cl.
 #ifndef DIMMING_CL
 #define DIMMING_CL
@@ -24,8 +25,8 @@ struct origin {
     struct vector axis;
 };
 
-// The origin at t along a ray lies one voxel off, on the side of the surface that the viewer sees, so that a surface does not
-// darken itself.
+// The origin at t along a ray lies one voxel off, on the side of the surface that the viewer sees,
+// so that a surface does not darken itself.
 INLINE void find_origin(struct origin *origin, __constant struct part *part, const struct ray *ray,
                         real t, const struct vector *normal, mask asks) {
     const real along = normal->x * ray->dx + normal->y * ray->dy + normal->z * ray->dz;

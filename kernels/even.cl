@@ -1,4 +1,5 @@
-// even.cl - what the ray loop makes of stride.cl where samples are evenly spaced: every run is one sample.
+// even.cl - what the ray loop makes of stride.cl where samples are evenly spaced: every run is one
+// sample.
 // Included by render.cl.
 #ifndef EVEN_CL
 #define EVEN_CL

@@ -43,24 +43,25 @@ INLINE void axis_step(struct axis *axis, mask where) {
 }
 
 // The voxel that a ray is in, of a part or of its mask.
-struct place {
+struct voxel_place {
     struct axis x, y, z;
 };
 
 // Begins at distance `near`. What is added to the ray's coordinates makes them memory's.
-INLINE struct place place_begin(const struct ray *ray, float4 shift, real near, mask runs) {
-    const struct place place = {axis_begin(ray->ox, ray->dx, shift.x, near, runs),
-                                axis_begin(ray->oy, ray->dy, shift.y, near, runs),
-                                axis_begin(ray->oz, ray->dz, shift.z, near, runs)};
+INLINE struct voxel_place voxel_place_begin(const struct ray *ray, float4 shift, real near,
+                                            mask runs) {
+    const struct voxel_place place = {axis_begin(ray->ox, ray->dx, shift.x, near, runs),
+                                      axis_begin(ray->oy, ray->dy, shift.y, near, runs),
+                                      axis_begin(ray->oz, ray->dz, shift.z, near, runs)};
     return place;
 }
 
-INLINE real place_exit(const struct place *place) {
+INLINE real voxel_place_exit(const struct voxel_place *place) {
     return fmin(axis_exit(&place->x), fmin(axis_exit(&place->y), axis_exit(&place->z)));
 }
 
 // Goes on behind all faces up to t: through an edge or a corner the ray crosses several at once.
-INLINE void place_step(struct place *place, real t, mask runs) {
+INLINE void voxel_place_step(struct voxel_place *place, real t, mask runs) {
     const mask x = MASK(axis_exit(&place->x) <= t), y = MASK(axis_exit(&place->y) <= t),
                z = MASK(axis_exit(&place->z) <= t);
     axis_step(&place->x, runs & x);
@@ -112,7 +113,7 @@ INLINE struct ray mask_ray(__constant struct world *world, __constant struct par
 
 // The lanes whose voxel of part m of the mask is selected.
 INLINE mask mask_selected(__constant struct world *world, __constant struct part *part, int m,
-                          MEMORY_PARAMETERS, const struct place *place) {
+                          MEMORY_PARAMETERS, const struct voxel_place *place) {
     __constant const float4 *ranges = world->cuts + part->mask_cuts + 3 * part->mask_count;
     const real raw = mask_value(MEMORY_ARGUMENTS, &world->parts[part->mask_part + m],
                                 TO_REAL(place->x.voxel), TO_REAL(place->y.voxel),
@@ -141,20 +142,21 @@ INLINE void follow_voxels(__constant struct world *world, TABLE_SPACE const uint
     const float sign = m != MASK_NONE && part->mask_inverted ? -1.0f : 1.0f;
 #endif
     mask runs = MASK(span.near < span.far) & RAY_RUNS(ray);
-    struct place place = place_begin(&ray_voxel, part->memory_from_voxel, span.near, runs);
+    struct voxel_place place =
+        voxel_place_begin(&ray_voxel, part->memory_from_voxel, span.near, runs);
 #if MASKED
-    struct place other = place_begin(&ray_mask, (float4)(0.0f), span.near, runs);
+    struct voxel_place other = voxel_place_begin(&ray_mask, (float4)(0.0f), span.near, runs);
 #endif
     real t = span.near;
     while (any_lane(runs)) {
         mask present = runs;
-        real face = place_exit(&place);
+        real face = voxel_place_exit(&place);
 #if CLIP
         face = fmin(face, clip_exit(world, part, ray, t, &present));
 #endif
 #if MASKED
         if (m != MASK_NONE) {
-            face = fmin(face, place_exit(&other));
+            face = fmin(face, voxel_place_exit(&other));
             present &= mask_selected(world, part, m, MEMORY_ARGUMENTS, &other);
         }
 #endif
@@ -184,9 +186,9 @@ INLINE void follow_voxels(__constant struct world *world, TABLE_SPACE const uint
         }
         t = end;
         runs &= MASK(face < span.far);
-        place_step(&place, end, runs);
+        voxel_place_step(&place, end, runs);
 #if MASKED
-        place_step(&other, end, runs);
+        voxel_place_step(&other, end, runs);
 #endif
     }
 }
@@ -196,7 +198,8 @@ INLINE struct light follow_exactly(__constant struct world *world, TABLE_SPACE c
                                    MEMORY_PARAMETERS, const struct ray *ray, integer *samples) {
     const real zero = (real)(0.0f);
     struct light light = {zero, zero, zero, zero};
-    for (int p = 0; p < world->part_count; p++) {
+    for (ulong met = PARTS_MET(world, ray, (real)(FLT_MAX)); met != 0; met &= met - 1) {
+        const int p = FIRST_PART(met);
         __constant struct part *part = &world->parts[p];
 #if MASKED
         const bool whole = part->mask_count == 0 || part->mask_inverted;

@@ -22,6 +22,7 @@ typedef int integer;
 typedef int mask;
 #define MASK(comparison) (-(comparison))
 #define CHOOSE(otherwise, chosen, where) ((where) ? (chosen) : (otherwise))
+#define FIRST_LANE(v) (v)
 #define PACKET_W 1
 #define PACKET_H 1
 #define LANE_X 0
@@ -35,6 +36,7 @@ typedef LANES_JOIN(int, LANES) integer;
 typedef LANES_JOIN(int, LANES) mask;
 #define MASK(comparison) (comparison)
 #define CHOOSE(otherwise, chosen, where) select((otherwise), (chosen), (where))
+#define FIRST_LANE(v) (v).s0
 #define GATHER(type, f, v) ((LANES_JOIN(type, LANES))(EACH(f, v)))
 #if LANES == 4
 #define PACKET_W 2

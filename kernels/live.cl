@@ -1,7 +1,8 @@
 // live.cl - volumes without voxels: a hypertexture's recipe is worked out at every sample.
 //
-// A position in memory coordinates is one of the recipe, so a live volume and the same one baked to a grid of any
-// size lie in one place. Each lane runs the interpreter by itself. Included by sample.cl.
+// A position in memory coordinates is one of the recipe, so a live volume and the same one baked to
+// a grid of any size lie in one place. Each lane runs the interpreter by itself.
+// Included by sample.cl.
 #ifndef LIVE_CL
 #define LIVE_CL
 

@@ -1,8 +1,9 @@
 // mask.cl - another volume's values decide where a part is shown.
 //
-// The parts of the deciding volume lie behind those that are shown in world->parts. Rows for them are in world->cuts:
-// for each such part the matrix from this part's memory coordinates to its own, then the ranges of values that are
-// selected, as samples have them, in x and y. See docs/mixing.md, "Masks".
+// The parts of the deciding volume lie behind those that are shown in world->parts. Rows for them
+// are in world->cuts: for each such part the matrix from this part's memory coordinates to its own,
+// then the ranges of values that are selected, as samples have them, in x and y. See
+// docs/mixing.md, "Masks".
 #ifndef MASK_CL
 #define MASK_CL
 
@@ -10,10 +11,12 @@
 #include "shared/grid.h"
 #include "traverse/cursor.cl"
 
-// Cells of a mask that are looked through for one cell of a part; where it spans more, it counts as mixed.
+// Cells of a mask that are looked through for one cell of a part; where it spans more, it counts as
+// mixed.
 #define MASK_CELLS_MAX 128
 
-// How far from a sample voxels are read, where bricks come from a pool: by cubic filters and for gradients.
+// How far from a sample voxels are read, where bricks come from a pool: by cubic filters and for
+// gradients.
 #define MASK_POOL_REACH 5.0f
 
 INLINE real mask_row(float4 row, real x, real y, real z) {
@@ -93,7 +96,8 @@ static bool mask_selects_box(__constant struct part *part, __constant struct par
     return all;
 }
 
-// Whether the mask of a part leaves nothing of its cell (x, y, z). `values` are the ranges of all cells.
+// Whether the mask of a part leaves nothing of its cell (x, y, z). `values` are the ranges of all
+// cells.
 static bool mask_empties(__constant struct world *world, __constant struct part *part,
                          __global const float2 *values, int x, int y, int z) {
     if (part->mask_count == 0)

@@ -1,9 +1,10 @@
 // mix.cl - how volumes that overlap share a sample.
 //
-// What is visible at one sample is put into a mixture, one part after the other in the order of the scene's list, and
-// the mixture then becomes a layer behind the light gathered so far. docs/mixing.md defines each way; the constructive
-// ones are those of Ricci 1973 and Chen & Tucker 2000 on extinctions, that is, on the opacity of a length that tends to
-// nothing, so that the picture does not depend on the step.
+// What is visible at one sample is put into a mixture, one part after the other in the order of the
+// scene's list, and the mixture then becomes a layer behind the light gathered so far.
+// docs/mixing.md defines each way; the constructive ones are those of Ricci 1973 and Chen & Tucker
+// 2000 on extinctions, that is, on the opacity of a length that tends to nothing, so that the
+// picture does not depend on the step.
 #ifndef MIX_CL
 #define MIX_CL
 
@@ -45,7 +46,8 @@ INLINE struct mixture mix_begin(void) {
 INLINE void mix_compete(struct mixture *mixture, real rank, real r, real g, real b, real depth) {
     mask wins = MASK(rank > mixture->rank) & MASK(depth > 0.0f);
 #if MIXING == MIXING_PRIORITY
-    // The first that is there wins. The least rank would see to that, but llvmpipe takes none for greater.
+    // The first that is there wins. The least rank would see to that, but llvmpipe takes none for
+    // greater.
     wins |= MASK(mixture->depth <= 0.0f) & MASK(depth > 0.0f);
 #endif
     mixture->rank = CHOOSE(mixture->rank, rank, wins);

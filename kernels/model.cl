@@ -1,7 +1,8 @@
 // model.cl - how light is gathered where a volume does not simply emit and absorb.
 //
-// What a sample shows is put together to a layer, which then joins the light of the ray: behind it, or before it where
-// rays are followed back to front. See docs/picture.md, "Optical models". Sources: Max 1995; Romero 2009.
+// What a sample shows is put together to a layer, which then joins the light of the ray: behind it,
+// or before it where rays are followed back to front. See docs/picture.md, "Optical models".
+// Sources: Max 1995; Romero 2009.
 #ifndef MODEL_CL
 #define MODEL_CL
 
@@ -12,8 +13,8 @@
 
 #if MODELS
 #if MODELS & MODELS_THESIS
-// Romero's compositing: the colour of a sample times the density, whatever length it stands for. Wrong by design: front
-// to back, opacity does not weigh the colour.
+// Romero's compositing: the colour of a sample times the density, whatever length it stands for.
+// Wrong by design: front to back, opacity does not weigh the colour.
 INLINE mask gather_thesis(struct gathered *gathered, const struct spot *spot, real r, real g, real b,
                           real strength) {
     const real zero = (real)(0.0f);
@@ -31,7 +32,8 @@ INLINE mask gather_thesis(struct gathered *gathered, const struct spot *spot, re
 }
 #endif
 
-// Gathers a sample of a part that is not one of plain absorption. True where the ray has to go on step by step.
+// Gathers a sample of a part that is not one of plain absorption. True where the ray has to go on
+// step by step.
 INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table,
                    __global const uchar *cells, MEMORY_PARAMETERS, struct gathered *gathered,
                    const struct crossing *crossing, const struct light *light,

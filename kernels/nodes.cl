@@ -1,4 +1,8 @@
 // nodes.cl - from the empty cells of a part to those of an octree's nodes.
+//
+// The passes go up the levels of the octree, each over the nodes of one level, and a last one brings
+// down to every cell the largest empty node around it: a cell holds 0 where something may be visible,
+// else one more than that node's level.
 // Included by occupancy.cl.
 #ifndef NODES_CL
 #define NODES_CL

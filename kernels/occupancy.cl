@@ -1,13 +1,12 @@
 // occupancy.cl - from a transfer function to the cells of a part in which something may be visible.
 //
-// The first pass compares each cell's range of values with the table: the first visible entry from each one on answers with
-// one look-up whether a range holds any. Three more turn that into distances (distance.cl). For an octree the passes go up its
-// levels instead, each over the nodes of one level,
-// and a last one brings down to every cell the largest empty node around it: a cell holds 0 where
-// something may be visible, else one more than that node's level.
+// The first pass compares each cell's range of values with the table: the first visible entry from each
+// one on answers with one look-up whether a range holds any. What the passes after it make of
+// that depends on the way to skip: distances.cl, nodes.cl, bricks.cl or bins.cl.
 //
-// Included by render.cl, because a program of their own would cost another half second of a cold
-// start.
+// Included by span.cl, because a program of their own would cost another half second of a cold
+// start; and nothing is in it that its variant does not ask for, because all passes and optical
+// models together cost a cold start a tenth of its time.
 #ifndef OCCUPANCY_CL
 #define OCCUPANCY_CL
 
@@ -25,9 +24,7 @@ struct cell_dims {
 // most ((5/4)^3 - 1) / 2 of it on either side.
 static float2 reachable(__constant struct part *part, __global const float2 *ranges,
                         struct cell_dims dims, int i, int reach) {
-#if FILTERS & FILTERS_CUBIC
     reach += part->filter & FILTERS_CUBIC ? 1 : 0;
-#endif
     if (reach == 0)
         return ranges[i];
     const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
@@ -170,10 +167,13 @@ static void find_cells(__constant struct world *world, __constant struct part *p
 }
 
 #if SKIP == SKIP_DISTANCE
-#include "distance.cl"
+#include "distances.cl"
 #elif SKIP == SKIP_OCTREE
 #include "nodes.cl"
 #elif SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS
+#include "bricks.cl"
+#endif
+#if SKIP == SKIP_BLOCKS
 #include "bins.cl"
 #endif
 #if ADAPTIVE

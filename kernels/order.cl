@@ -1,7 +1,9 @@
-// order.cl - mixing `ordered`: every volume keeps its own step, and the next nearest sample of any is taken.
+// order.cl - mixing `ordered`: every volume keeps its own step, and the next nearest sample of any
+// is taken.
 //
-// Each cursor counts samples of its own. Where they lie on the ray is compared in units of a 64th of the world's step;
-// samples in one place are taken together, in the order of the list. See docs/mixing.md.
+// Each cursor counts samples of its own. Where they lie on the ray is compared in units of a 64th
+// of the world's step; samples in one place are taken together, in the order of the list. See
+// docs/mixing.md.
 #ifndef ORDER_CL
 #define ORDER_CL
 

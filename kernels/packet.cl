@@ -18,7 +18,7 @@ INLINE struct light packet_light(__constant struct world *world, TABLE_SPACE con
     light = follow_exactly(world, table, MEMORY_ARGUMENTS, ray, &samples);
     crossing.possible = samples;
 #else
-    if (crossing.count > 0)
+    if (HAS_SAMPLES(&crossing))
         light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
 #endif
 

@@ -1,8 +1,9 @@
 // pixel.cl - the rays of a packet's pixels, and where their light goes.
 //
-// As a rule a pixel has one ray, through its centre. With supersampling each launch follows one ray of
-// every pixel, ray `number` of its pattern, and resolve.cl adds the launches up. When only contrast is refined, pixels
-// without it keep the light of the ray through their centre, which the first launch left there.
+// As a rule a pixel has one ray, through its centre. With supersampling each launch follows one ray
+// of every pixel, ray `number` of its pattern, and resolve.cl adds the launches up. When only
+// contrast is refined, pixels without it keep the light of the ray through their centre, which the
+// first launch left there.
 #ifndef PIXEL_CL
 #define PIXEL_CL
 
@@ -17,8 +18,8 @@
 #define RAY_ARGUMENTS
 #endif
 
-// The index of the first pixel of an eye's picture, and pixels from one of its rows to the next. With supersampling
-// pictures lie above each other.
+// The index of the first pixel of an eye's picture, and pixels from one of its rows to the next.
+// With supersampling pictures lie above each other.
 #if EYES == EYES_BOTH
 #define FIRST_PIXEL(world, eye) ((eye) * (world)->eye_px)
 #define ROW_PX(world) (world)->row_px
@@ -32,7 +33,8 @@ struct light {
     real r, g, b, a;
 };
 
-// Rays through places x and y of the picture of an eye, or of both, whose packet's first pixel is (left, top).
+// Rays through places x and y of the picture of an eye, or of both, whose packet's first pixel is
+// (left, top).
 INLINE struct ray eye_rays(__constant struct world *world, int eye, int left, int top, real x, real y) {
 #if EYES == EYES_WOVEN
     const struct ray first = camera_ray(world, &world->camera, x, y);

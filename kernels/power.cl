@@ -59,8 +59,9 @@ INLINE real power(real base, real exponent) {
 
 #define WHOLE_POWER_MAX 120
 
-// The same for an exponent of all lanes, and bases down to nothing. Whole numbers take a few products, of which none
-// comes near the least of floats, where processors are slow: a base is at least what makes 2^-120 of the power.
+// The same for an exponent of all lanes, and bases down to nothing. Whole numbers take a few
+// products, of which none comes near the least of floats, where processors are slow: a base is at
+// least what makes 2^-120 of the power.
 INLINE real power_of_all(real base, float exponent) {
 #if LANES > 1
     int left = (int)exponent;

@@ -1,4 +1,5 @@
-// probe_log.cl - what the ray loop tells a probe of each sample. Only where LANES is 1. Included by render.cl.
+// probe_log.cl - what the ray loop tells a probe of each sample. Only where LANES is 1.
+// Included by render.cl.
 #ifndef PROBE_LOG_CL
 #define PROBE_LOG_CL
 

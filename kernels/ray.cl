@@ -45,8 +45,8 @@ struct span {
     real near, far;
 };
 
-// The rays of a camera through the places x and y of the whole picture: pixels, from its left and top edge. Whether they
-// run, and their phases, are left to the caller.
+// The rays of a camera through the places x and y of the whole picture: pixels, from its left and
+// top edge. Whether they run, and their phases, are left to the caller.
 INLINE struct ray camera_ray(__constant struct world *world, __constant struct camera *camera, real x,
                              real y) {
     const real u = x * (2.0f / (float)world->whole_width) - 1.0f;
@@ -98,8 +98,8 @@ INLINE struct ray transform_ray(__constant const float4 *rows, const struct ray 
     return result;
 }
 
-// Narrows a span to one slab of a box (Kay & Kajiya 1986). A ray parallel to the slab is inside it for
-// ever or never; 1e-20 keeps the division finite and makes that so.
+// Narrows a span to one slab of a box (Kay & Kajiya 1986). A ray parallel to the slab is inside it
+// for ever or never; 1e-20 keeps the division finite and makes that so.
 INLINE void clip_slab(struct span *span, real origin, real direction, float low, float high) {
     const real safe = CHOOSE(direction, (real)(1e-20f), MASK(fabs(direction) < 1e-20f));
     const real inverse = 1.0f / safe;

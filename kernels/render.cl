@@ -44,16 +44,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                                 struct crossing *crossing, integer *samples) {
     const real zero = (real)(0.0f);
     struct light light = {zero, zero, zero, zero};
-    // The first sample of each ray, and the one behind its last.
-    integer i = (integer)(SAMPLE_NEVER), last = (integer)(0);
-    for (int c = 0; c < COUNTED(crossing->count); c++) {
-        i = min(i, crossing->cursors[c].next);
-        last = max(last, crossing->cursors[c].end);
-    }
-    mask alive = MASK(i < last);
     struct active active;
-    active.until = CAPACITY == 1 ? last : i;
-    active.count = active.joined = 0;
+    mask alive;
+    integer i = begin_active(&active, crossing, &alive);
 
 #if MODELS
     struct gathered gathered;
@@ -70,8 +63,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         alive &= MASK(place < NOWHERE);
         active.count = crossing->count;
 #elif CAPACITY > 1
-        if (any_lane(alive & MASK(i >= active.until)))
+        if (any_lane(alive & MASK(REACH(i) >= active.until))) {
             join_active(world, cells, &active, crossing, i, alive);
+#if MODELS
+            gathered_meet(&gathered, crossing);
+#endif
+        }
 #endif
         const integer length = find_run(world, crossing, &runs, &i, alive);
         bool seen = false;
@@ -175,7 +172,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         } else {
             i = CHOOSE(i, leap(&active, crossing, i), alive);
         }
-        alive &= MASK(i < last);
+        alive &= MASK(i < active.last);
 #endif
     }
 #if MODELS & MODELS_PROJECTION
@@ -216,15 +213,14 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
         return;
 
 #if EYES == EYES_MERGED
-    struct ray ray;
     struct light light = {(real)(0.0f), (real)(0.0f), (real)(0.0f), (real)(0.0f)}, first = light;
     for (int side = 0; side < 2; side++) {
         first = light;
-        ray = pixel_rays(world, side, left, top RAY_ARGUMENTS);
+        const struct ray ray = pixel_rays(world, side, left, top RAY_ARGUMENTS);
         light = packet_light(world, table, cells STRIDE_ARGUMENT, MEMORY_ARGUMENTS, &ray, left, top, picture,
                              side ? second_counts : counts);
     }
-    light = merge_eyes(world, &first, &light);
+    store_merged(world, picture, left, top, &first, &light);
 #else
     const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
@@ -234,8 +230,8 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
 #if !DEBUG
     add_background(&light, world);
 #endif
-#endif
     store_pixels(world, picture, eye, left, top, &ray, &light);
+#endif
 }
 
 #if PROBE

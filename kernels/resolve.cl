@@ -1,13 +1,16 @@
-// resolve.cl - supersampling's two passes over pixels: where more rays are needed, and how rays become a picture.
+// resolve.cl - supersampling's two passes over pixels: where more rays are needed, and how rays
+// become a picture.
 //
-// Between them stand launches of render.cl, each of which leaves the light of one ray of every pixel.
+// Between them stand launches of render.cl, each of which leaves the light of one ray of every
+// pixel.
 #ifndef RESOLVE_CL
 #define RESOLVE_CL
 
 #include "shared/pattern.h"
 #include "shared/world.h"
 
-// Marks the pixels that differ from one of their eight neighbours by more than the threshold, in any channel.
+// Marks the pixels that differ from one of their eight neighbours by more than the threshold, in
+// any channel.
 __kernel void refine(__constant struct world *world, __global const float4 *light, __global uchar *refined,
                      const uint first) {
     const int pixel = (int)(get_global_id(0) + first);
@@ -22,13 +25,14 @@ __kernel void refine(__constant struct world *world, __global const float4 *ligh
     refined[pixel] = fmax(fmax(contrast.x, contrast.y), fmax(contrast.z, contrast.w)) > world->contrast;
 }
 
-// The weight of a ray this far from a pixel's centre along one axis: a Gaussian of half a pixel, lowered so that it
-// ends at one and a half.
+// The weight of a ray this far from a pixel's centre along one axis: a Gaussian of half a pixel,
+// lowered so that it ends at one and a half.
 static inline float gaussian(float distance) {
     return fmax(exp(-2.0f * distance * distance) - exp(-4.5f), 0.0f);
 }
 
-// Adds ray `number` of every pixel to the picture, and with the last divides by the sum of the weights.
+// Adds ray `number` of every pixel to the picture, and with the last divides by the sum of the
+// weights.
 __kernel void resolve(__constant struct world *world, __global const float4 *light, __global float4 *picture,
                       __global float *weights, const uint number, const uint first) {
     const int pixel = (int)(get_global_id(0) + first);

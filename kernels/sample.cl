@@ -41,7 +41,8 @@
     (FILTERS == (which) || ((FILTERS & (which)) != 0 && (part)->filter == (which)))
 #define IS_CUBIC(part) (IS_FILTER(part, FILTERS_CUBIC_B_SPLINE) || IS_FILTER(part, FILTERS_CATMULL_ROM))
 
-// A sample: the value that the transfer function asks for, and a colour volume's own colour in 0..1.
+// A sample: the value that the transfer function asks for, and a colour volume's own colour in
+// 0..1.
 struct sample {
     real raw;
 #if VOXELS & VOXELS_RGBA

@@ -1,8 +1,9 @@
 // sample_image.cl - voxels in 3-D images, interpolated by the device.
 //
 // OpenCL C cannot index an array of images, so the volumes of one class lie side by side in one
-// image, an atlas. Each keeps its border of one voxel, which repeats its edge, so that the filter never
-// sees a neighbour. Weights have as few as 8 fractional bits in hardware. Included by sample.cl.
+// image, an atlas. Each keeps its border of one voxel, which repeats its edge, so that the filter
+// never sees a neighbour. Weights have as few as 8 fractional bits in hardware.
+// Included by sample.cl.
 #ifndef SAMPLE_IMAGE_CL
 #define SAMPLE_IMAGE_CL
 

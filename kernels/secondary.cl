@@ -175,10 +175,11 @@ INLINE real light_through(__constant struct world *world, TABLE_SPACE const uint
     struct obstacle obstacles[CAPACITY];
     int parts[CAPACITY], count = 0;
     integer i = (integer)(SAMPLE_NEVER), last = (integer)(0);
-    for (int p = 0; p < COUNTED(world->part_count); p++) {
+    const real far = CHOOSE((real)(-1.0f), end, asks);
+    for (ulong met = PARTS_MET(world, ray, far); met != 0; met &= met - 1) {
+        const int p = FIRST_PART(met);
         struct obstacle *obstacle = &obstacles[CAPACITY == 1 ? 0 : count];
-        begin_obstacle(obstacle, world, &world->parts[p], cells, ray,
-                       CHOOSE((real)(-1.0f), end, asks), step_mm);
+        begin_obstacle(obstacle, world, &world->parts[p], cells, ray, far, step_mm);
         const integer next = obstacle->cursor.next, behind = obstacle->cursor.end;
         if (!any_lane(MASK(next < behind)))
             continue;

@@ -1,7 +1,8 @@
 // shade.cl - light on a sample, from the gradient of the values around it.
 //
-// Normals are looked for only where something is visible. With shadows or ambient occlusion less light
-// arrives, which dimming.cl finds out. See docs/picture.md, "Shading". Phong 1975; Blinn 1977.
+// Normals are looked for only where something is visible. With shadows or ambient occlusion less
+// light arrives, which dimming.cl finds out. See docs/picture.md, "Shading". Phong 1975; Blinn
+// 1977.
 #ifndef SHADE_CL
 #define SHADE_CL
 
@@ -42,8 +43,8 @@ INLINE real highlight_cosine(__constant struct part *part, __constant struct lam
     return part->one_sided ? cosine : fabs(cosine);
 }
 
-// Shades the straight colour of a sample at t along a ray, where the normal is known. `where` are the
-// lanes that are visible.
+// Shades the straight colour of a sample at t along a ray, where the normal is known. `where` are
+// the lanes that are visible.
 INLINE void light_up(FRAME_PARAMETERS, __constant struct part *part, MEMORY_PARAMETERS,
                      const struct ray *ray, real t, const struct vector *normal, mask where, real *r,
                      real *g, real *b) {

@@ -1,10 +1,11 @@
 // stride.cl - longer strides where volumes are locally thin or smooth.
 //
-// The samples of a ray go in runs of one, two or four, and one sample in the middle of a run stands for all of it. A run
-// begins where its length divides its first sample's number, and it is as long as all parts there allow: each has a byte
-// for every cell (stride_cells.cl), of which those of the first and the last sample are asked, and none begins or ends
-// within a run. So the runs of a ray are the same whatever is skipped and whichever rays share its packet. See
-// docs/picture.md, "Adaptive steps".
+// The samples of a ray go in runs of one, two or four, and one sample in the middle of a run stands
+// for all of it. A run begins where its length divides its first sample's number, and it is as long
+// as all parts there allow: each has a byte for every cell (stride_cells.cl), of which those of the
+// first and the last sample are asked, and none begins or ends within a run. So the runs of a ray
+// are the same whatever is skipped and whichever rays share its packet. See docs/picture.md,
+// "Adaptive steps".
 // Included by span.cl.
 #ifndef STRIDE_CL
 #define STRIDE_CL
@@ -20,8 +21,8 @@
     (crossing)->spared += CHOOSE((integer)(0), (length) - 1, present)
 #define SPARED(crossing) (uint)sum_lanes((crossing).spared)
 
-// The last sample of a run that begins at sample i, and the first one behind it; and, of the run that ends before sample
-// i, the middle.
+// The last sample of a run that begins at sample i, and the first one behind it; and, of the run
+// that ends before sample i, the middle.
 #define RUN_LAST(i, length) ((i) + (length) - 1)
 #define RUN_NEXT(i, length, alive) ((i) + CHOOSE((integer)(0), length, alive))
 #define RUN_MIDDLE(i, length) (TO_REAL(i) - 0.5f * TO_REAL((length) + 1))
@@ -49,16 +50,13 @@ INLINE struct runs runs_begin(void) {
 // How long a run may be that has sample i of a part, as far as the sample's cell knows.
 INLINE integer cell_run(__constant struct part *part, __global const uchar *strides,
                         const struct cursor *cursor, integer i) {
-    const real t = TO_REAL(cursor_clamp(cursor, i));
-    const integer cx = TO_INTEGER(cursor->ox + t * cursor->dx) >> CELL_BITS,
-                  cy = TO_INTEGER(cursor->oy + t * cursor->dy) >> CELL_BITS,
-                  cz = TO_INTEGER(cursor->oz + t * cursor->dz) >> CELL_BITS;
-    const integer cell = cz * part->cell_slice + cy * part->cell_row + cx + (int)part->cells;
+    const struct place place = cursor_place(cursor, i);
+    const integer cell = place_cell(part, &place);
     return TO_INTEGER(GATHER(uchar, LOAD_STRIDE, cell));
 }
 
-// The lanes in which the samples from `first` on may be one run of that length. *at_first and *at_last are what the cells of
-// its first and its last sample allow.
+// The lanes in which the samples from `first` on may be one run of that length. *at_first and
+// *at_last are what the cells of its first and its last sample allow.
 INLINE mask run_fits(__constant struct world *world, const struct crossing *crossing, integer first,
                      int length, integer *at_first, integer *at_last) {
     const integer most = (integer)(STRIDE_MAX), last = first + (length - 1);
@@ -81,8 +79,8 @@ INLINE mask run_fits(__constant struct world *world, const struct crossing *cros
     return fits & MASK(min(*at_first, *at_last) >= length);
 }
 
-// Takes *i back to the first sample of the run that it is in, and returns the run's length, in the lanes that ask; 1 in
-// others.
+// Takes *i back to the first sample of the run that it is in, and returns the run's length, in the
+// lanes that ask; 1 in others.
 INLINE integer find_run(__constant struct world *world, const struct crossing *crossing,
                         struct runs *runs, integer *i, mask asks) {
     const integer block = *i & -STRIDE_MAX;
@@ -91,7 +89,8 @@ INLINE integer find_run(__constant struct world *world, const struct crossing *c
         runs->block = CHOOSE(runs->block, block, fresh);
         runs->head = CHOOSE(runs->head, (integer)(1), fresh);
         runs->tail = CHOOSE(runs->tail, (integer)(1), fresh);
-        // All four samples, then those two of the first and of the second half whose outer cells allow it.
+        // All four samples, then those two of the first and of the second half whose outer cells
+        // allow it.
         mask open = fresh;
         integer front, back, inner;
         for (int n = 0; n < 3; n++) {

@@ -1,7 +1,8 @@
-// stride_cells.cl - how long a run of samples may be that begins or ends in a cell (docs/picture.md, "Adaptive steps").
+// stride_cells.cl - how long a run of samples may be that begins or ends in a cell
+// (docs/picture.md, "Adaptive steps").
 //
-// The transfer function's variation up to each entry of its table, summed up on the host, tells with two look-ups how much it can
-// change over the values of a cell.
+// The transfer function's variation up to each entry of its table, summed up on the host, tells
+// with two look-ups how much it can change over the values of a cell.
 // Included by occupancy.cl.
 #ifndef STRIDE_CELLS_CL
 #define STRIDE_CELLS_CL
@@ -9,8 +10,8 @@
 // Values that are whole entries are so to rounding.
 #define STRIDE_SLACK 0x1p-10f
 
-// The longest run that may begin in cell i of a part. `visible` has the variations as pairs: of all entries up to one, and
-// of that one from nothing.
+// The longest run that may begin in cell i of a part. `visible` has the variations as pairs: of all
+// entries up to one, and of that one from nothing.
 static uchar find_stride(__constant struct world *world, __constant struct part *part,
                          __global const float2 *ranges, __global const uint *visible,
                          struct cell_dims dims, int i) {

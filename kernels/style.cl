@@ -12,8 +12,8 @@
 #define HAS_NORMALS(part) ((part)->shading != SHADING_NONE)
 #endif
 
-// Shades the straight colour of sample i in the lanes where it is visible, as shade does, and scales
-// its strength.
+// Shades the straight colour of sample i in the lanes where it is visible, as shade does, and
+// scales its strength.
 INLINE void style(FRAME_PARAMETERS, __constant struct part *part, MEMORY_PARAMETERS,
                   const struct ray *ray, real t_first, real i, real x, real y, real z, real raw,
                   mask where, real *strength, real *r, real *g, real *b) {

@@ -4,7 +4,7 @@
 
 #include <ctype.h>
 #include <limits.h>
-#include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -127,6 +127,23 @@ static bool enter(struct cursor *cursor, const char *name, size_t length, struct
         skip_space(cursor);
     }
     return false;
+}
+
+int pel_text_count(const char *const *words) {
+    int count = 0;
+    while (words[count])
+        count++;
+    return count;
+}
+
+void pel_text_list(char *text, size_t bytes, const char *const *words, int count,
+                   const char *last) {
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < count && used < bytes; i++) {
+        const char *between = i == 0 ? "" : i + 1 < count ? ", " : last;
+        used += (size_t)snprintf(text + used, bytes - used, "%s%s", between, words[i]);
+    }
 }
 
 const char *pel_text_nearest(const char *word, const char *const *known) {

@@ -1,8 +1,16 @@
-// text.h - finding the word somebody meant, and the place in a file somebody means.
+// text.h - lists of words, finding the word somebody meant, and the place in a file somebody means.
 #ifndef PEL_BASE_TEXT_H
 #define PEL_BASE_TEXT_H
 
 #include <stdbool.h>
+#include <stddef.h>
+
+// How many words there are in a list that ends with NULL.
+int pel_text_count(const char *const *words);
+
+// Writes the first `count` words with commas between them, but `last`, such as " or ", before the
+// last one. What has no room in `bytes` is cut.
+void pel_text_list(char *text, size_t bytes, const char *const *words, int count, const char *last);
 
 // The word of `known` (its last element is NULL) that `word` most likely is a slip of: the one with
 // the fewest letters to insert, delete, replace or swap with their neighbour, case aside. NULL when

@@ -33,13 +33,12 @@ static int find_view(const char *name) {
         if (strcmp(name, view_names[i]) == 0)
             return i;
     const char *nearest = pel_text_nearest(name, view_names);
+    char list[128];
+    pel_text_list(list, sizeof list, view_names, pel_text_count(view_names), " and ");
     if (nearest)
         pel_fail(PEL_ERROR_ARGUMENT, "no view '%.32s'; did you mean '%s'", name, nearest);
     else
-        pel_fail(PEL_ERROR_ARGUMENT,
-                 "no view '%.32s'; there are anterior, posterior, left, right, superior, inferior "
-                 "and oblique",
-                 name);
+        pel_fail(PEL_ERROR_ARGUMENT, "no view '%.32s'; there are %s", name, list);
     return -1;
 }
 

@@ -61,18 +61,6 @@ static const struct argp_option options[] = {
     {0},
 };
 
-static bool add_set(struct arguments *arguments, const char *text) {
-    const char *equals = strchr(text, '=');
-    if (!equals || equals == text) {
-        cli_fail(PEL_ERROR_ARGUMENT, "--set: '%s' is not of the form key=value", text);
-        return false;
-    }
-    char key[128];
-    snprintf(key, sizeof key, "%.*s", (int)(equals - text), text);
-    overrides_add(&arguments->overrides, key, equals + 1);
-    return true;
-}
-
 static error_t parse(int key, char *argument, struct argp_state *state) {
     struct arguments *arguments = state->input;
     struct pel_viewer_options *viewer = &arguments->viewer;
@@ -111,7 +99,7 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
         arguments->keys = true;
         break;
     case KEY_SET:
-        good = add_set(arguments, argument);
+        good = overrides_add_setting(&arguments->overrides, "--set", argument);
         break;
     case KEY_VERBOSE:
         viewer->report = &arguments->report;

@@ -40,6 +40,16 @@ void overrides_add_text(struct overrides *overrides, const char *key, const char
     json_decref(string);
 }
 
+bool overrides_add_setting(struct overrides *overrides, const char *option, const char *text) {
+    const char *equals = strchr(text, '=');
+    if (!equals || equals == text) {
+        cli_fail(PEL_ERROR_ARGUMENT, "%s: '%s' is not of the form key=value", option, text);
+        return false;
+    }
+    append(overrides, strdup(text));
+    return true;
+}
+
 // Where the "key=..." after the first comma begins: a comma followed by a letter. Numbers have none
 // there.
 static char *next_pair(char *text) {

@@ -15,6 +15,10 @@ struct overrides {
 void overrides_add(struct overrides *overrides, const char *key, const char *value);
 void overrides_add_text(struct overrides *overrides, const char *key, const char *value);
 
+// Appends "key=value" as it stands, or fails with a message about `option` when it is not of that
+// form.
+bool overrides_add_setting(struct overrides *overrides, const char *option, const char *text);
+
 // Appends "key=value,key=value", the keys being members of `parent`, with values that may be
 // numbers with commas between them: "eye=0,-400,0,fov=30". False, with a message about `option`,
 // when it is not of that form.

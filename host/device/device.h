@@ -97,8 +97,9 @@ bool pel_kernel_set_u32(struct pel_kernel *kernel, int index, uint32_t value);
 bool pel_kernel_launch(struct pel_kernel *kernel, size_t count, size_t group);
 
 // The largest work-group this kernel runs in on its device.
+size_t pel_kernel_max_group(const struct pel_kernel *kernel);
+
 // What the device says of a kernel; zeros where it does not.
 struct pel_kernel_info pel_kernel_describe(const struct pel_kernel *kernel);
-size_t pel_kernel_max_group(const struct pel_kernel *kernel);
 
 #endif

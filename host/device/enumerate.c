@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "device/opencl.h"
 
 enum { PLATFORM_MAX = 16 };
@@ -68,7 +69,7 @@ static bool has_extension(cl_device_id id, const char *name) {
     size_t bytes = 0, length = strlen(name);
     if (clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, 0, NULL, &bytes) != CL_SUCCESS)
         return false;
-    char *list = calloc(bytes + 1, 1);
+    char *list = pel_allocate(bytes + 1, 1);
     bool found = false;
     if (list && clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, bytes, list, NULL) == CL_SUCCESS)
         for (const char *at = list; !found && (at = strstr(at, name)); at += length)

@@ -20,6 +20,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "output/image.h"
 #include "output/stereo.h"
 
 enum { LEFT, RIGHT, RED = 0, GREEN, BLUE };
@@ -211,7 +212,7 @@ struct pel_image *pel_anaglyph_compose(const struct pel_stereo *stereo,
 
     struct curves *curves = linear ? make_curves() : NULL;
     struct pel_image *image =
-        linear && !curves ? NULL : pel_image_create(left->width, left->height);
+        linear && !curves ? NULL : pel_image_create_undefined(left->width, left->height);
     size_t pixels = image ? (size_t)image->width * (size_t)image->height : 0;
     for (size_t i = 0; i < 4 * pixels; i += 4) {
         float *out = &image->rgba[i];

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "output/image.h"
 #include "output/stereo.h"
 
 // How many pictures' widths and heights the result is wide and high.
@@ -94,7 +95,7 @@ struct pel_image *pel_stereo_compose(const struct pel_stereo *stereo, const stru
     int across, down;
     count_pictures(stereo->kind, &across, &down);
     const struct pel_image *const eyes[2] = {left, right};
-    struct pel_image *image = pel_image_create(across * left->width, down * left->height);
+    struct pel_image *image = pel_image_create_undefined(across * left->width, down * left->height);
     if (!image)
         return NULL;
     float *out = image->rgba;

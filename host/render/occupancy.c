@@ -79,7 +79,7 @@ static bool same_words(const struct pel_mirror *mirror, const struct pel_world *
                        size_t count) {
     size_t start = first * sizeof(u32), bytes = count * sizeof(u32);
     return mirror->copy && start + bytes <= mirror->bytes &&
-           memcmp((const char *)mirror->copy + start, world->visible + first, bytes) == 0;
+           memcmp((const char *)mirror->copy + start, world->visible->words + first, bytes) == 0;
 }
 
 // Finds the parts whose cells must be derived anew; true when there are any.
@@ -221,23 +221,20 @@ static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *
     return good;
 }
 
-// The kernel for the passes, one whose program has all that are needed and knows how large cells
-// are.
+// The kernel for the passes, one that knows how large cells are. One that has been compiled for
+// more than is asked for is as good.
 static bool find_kernel(struct pel_occupancy *occupancy, const struct pel_world *world,
                         const struct pel_kernel *render, enum pel_skip skip) {
-    const struct pel_passes *has = &occupancy->passes;
-    if (occupancy->kernel && has->skip == skip && has->pool == world->pool &&
-        has->masks >= world->masked && has->strides >= world->adaptive &&
-        (world->filters & ~has->filters) == 0 && (world->models & ~has->models) == 0)
+    const struct pel_occupancy_text *has = &occupancy->text;
+    struct pel_occupancy_text asked = {skip,        world->filters, world->models,
+                                       world->pool, world->masked,  world->adaptive};
+    if (occupancy->kernel && has->skip == asked.skip && !(asked.filters & ~has->filters) &&
+        !(asked.models & ~has->models) && has->pool == asked.pool && has->masks >= asked.masks &&
+        has->strides >= asked.strides)
         return true;
     pel_kernel_destroy(occupancy->kernel);
     occupancy->kernel = pel_kernel_sibling(render, "occupancy");
-    occupancy->passes = (struct pel_passes){.skip = skip,
-                                            .pool = world->pool,
-                                            .masks = world->masked,
-                                            .strides = world->adaptive,
-                                            .filters = world->filters,
-                                            .models = world->models};
+    occupancy->text = asked;
     return occupancy->kernel != NULL;
 }
 
@@ -294,9 +291,8 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
     make_key(&key, world, &residency->layout, skip, &bricks);
     bool same = memcmp(&key, &occupancy->key, sizeof key) == 0;
     bool any = find_dirty(occupancy, &key, world);
-    if (!pel_mirror_update(&occupancy->visible, device, world->visible,
-                           world->visible_words * sizeof *world->visible, 0, "visible entries",
-                           NULL)) {
+    if (!pel_mirror_update_words(&occupancy->visible, device, world->visible, "visible entries",
+                                 NULL)) {
         occupancy->key.part_count = 0;
         return false;
     }

@@ -9,7 +9,7 @@
 #include "render/residency.h"
 #include "world/world.h"
 
-// What the cells depend on besides the counts of visible entries.
+// What the cells depend on besides the visible entries.
 struct pel_occupancy_key {
     struct pel_layout layout;
     int part_count;
@@ -22,16 +22,18 @@ struct pel_occupancy_key {
     struct part parts[WORLD_PART_MAX];
 };
 
+// What kernels/occupancy.cl is compiled for.
+struct pel_occupancy_text {
+    enum pel_skip skip;
+    int filters, models; // FILTERS_* and MODELS_*
+    bool pool, masks, strides;
+};
+
 // Zero-initialise.
 struct pel_occupancy {
     struct pel_kernel *kernel;
-    // What its program is for.
-    struct pel_passes {
-        enum pel_skip skip;
-        bool pool, masks, strides;
-        int filters, models;
-    } passes;
-    struct pel_mirror visible; // of each table, the first visible entry from each one on
+    struct pel_occupancy_text text; // what there is in its program
+    struct pel_mirror visible;      // of each table, the first visible entry from each one on
     struct pel_buffer *cells,
         *scratch;               // a byte for each cell of each part, and room to work in
     size_t cell_count;          // room in both

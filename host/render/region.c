@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "output/image.h"
 
 bool pel_region_check(const struct pel_render_settings *settings) {
     const int *region = settings->region;
@@ -45,7 +46,7 @@ struct pel_image *pel_region_cut(struct pel_image *image, const struct pel_rende
     if (!image || !image->rgba || memcmp(from, to, sizeof settings->region) == 0)
         return image;
     int planes = image->height / from[3]; // pictures above each other
-    struct pel_image *part = pel_image_create(to[2], planes * to[3]);
+    struct pel_image *part = pel_image_create_undefined(to[2], planes * to[3]);
     for (int y = 0; part && y < part->height; y++) {
         int row = y / to[3] * from[3] + y % to[3] + to[1] - from[1];
         size_t first = (size_t)row * (size_t)from[2] + (size_t)(to[0] - from[0]);

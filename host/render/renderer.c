@@ -3,7 +3,6 @@
 // A frame is: plan where voxels lie, make the world's bytes, send what changed, choose the kernel,
 // and run it over the tiles in short batches. What is on the device stays for the next frame.
 #include <float.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +10,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "device/device.h"
+#include "output/image.h"
 #include "render/bakery.h"
 #include "render/counts.h"
 #include "render/debug.h"
@@ -20,16 +20,16 @@
 #include "render/mirror.h"
 #include "render/occupancy.h"
 #include "render/probe.h"
+#include "render/rays.h"
 #include "render/region.h"
 #include "render/residency.h"
 #include "render/resolve.h"
 #include "render/rounds.h"
-#include "render/target.h"
-#include "render/tiles.h"
 #include "render/settings.h"
 #include "render/share.h"
+#include "render/target.h"
+#include "render/tiles.h"
 #include "render/variant.h"
-#include "shared/pattern.h"
 #include "world/skip.h"
 
 struct pel_renderer {
@@ -71,12 +71,6 @@ static bool grow_buffer(struct pel_buffer **buffer, size_t *have, size_t bytes,
 
 // ---- One frame ---------------------------------------------------------------------------------
 
-// Pixels of all pictures of a frame.
-static size_t count_pixels(const struct pel_world *world) {
-    return (size_t)world->bytes.width * (size_t)world->bytes.height *
-           (size_t)pel_world_pictures(world);
-}
-
 // Binds everything but where light goes, the first tile, and the ray's number, in the order of the
 // kernel's parameters. A kernel has an atlas for each class in `voxels` only.
 static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kernel,
@@ -94,42 +88,6 @@ static bool set_arguments(struct pel_renderer *renderer, struct pel_kernel *kern
     if (variant->adaptive && good)
         good = pel_kernel_set_buffer(kernel, index++, renderer->occupancy.strides);
     return good && pel_residency_bind(&renderer->residency, kernel, index, variant->voxels);
-}
-
-// Runs the kernel for one ray of each pixel after the other, and adds them up.
-static bool run_rays(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                     const struct pel_scene *scene, const struct pel_world *world,
-                     const struct pel_tiling *tiling, const struct pel_render_options *options,
-                     struct pel_render_statistics *statistics) {
-    const struct pel_supersampling *supersampling = &scene->render.supersampling;
-    size_t pixels = count_pixels(world);
-    bool adaptive = (float)supersampling->adaptive > 0; // as the kernels read it
-    int n = supersampling->n > 1 ? supersampling->n : 1;
-    struct pel_pass pass = {0, n * n + adaptive};
-    double slowest = INFINITY; // tiles per millisecond
-    statistics->rays = pixels * (uint64_t)(n * n);
-    if (adaptive) {
-        uint64_t refined;
-        if (!pel_kernel_set_u32(kernel, PEL_RAY_ARGUMENT, RAY_CENTRE) ||
-            !pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options, pass) ||
-            !pel_resolve_refine(&renderer->resolve, renderer->world.buffer, pixels, &refined))
-            return false;
-        statistics->rays = pixels + refined * (uint64_t)(n * n);
-        statistics->refined = (double)refined / (double)pixels;
-        slowest = renderer->pace.tiles_per_ms;
-        pass.number++;
-    }
-    for (int ray = 0; ray < n * n; ray++, pass.number++) {
-        if (!pel_kernel_set_u32(kernel, PEL_RAY_ARGUMENT, (uint32_t)ray) ||
-            !pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options, pass) ||
-            !pel_resolve_add(&renderer->resolve, renderer->world.buffer, renderer->target.buffer,
-                             pixels, ray))
-            return false;
-        slowest = fmin(slowest, renderer->pace.tiles_per_ms);
-    }
-    // The next frame may begin with all pixels where this one ended with few.
-    renderer->pace.tiles_per_ms = slowest;
-    return pel_device_finish(renderer->device);
 }
 
 // The work-group that the user, the device or the kernel allows: a power of two.
@@ -170,11 +128,10 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
                            (world->eyes == EYES_ONE ? 1 : 2) * sizeof world->bytes.camera,
                            "the scene", NULL) ||
-        !pel_mirror_update(&renderer->tables, device, world->tables,
-                           world->table_words * sizeof *world->tables, 0, "transfer functions",
-                           NULL) ||
+        !pel_mirror_update_words(&renderer->tables, device, world->tables, "transfer functions",
+                                 NULL) ||
         (world->supersampling &&
-         !pel_resolve_prepare(&renderer->resolve, device, kernel, count_pixels(world))) ||
+         !pel_resolve_prepare(&renderer->resolve, device, kernel, pel_world_pixels(world))) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
                      packets * SAMPLE_COUNTS * sizeof(u32), device, "sample counts"))
         return NULL;
@@ -194,50 +151,6 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     statistics->work_group = (int)tiling->group;
     statistics->kernel = pel_kernel_describe(kernel);
     return kernel;
-}
-
-// Runs the kernel for one ray of each of some pixels.
-static bool run_only(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                     const struct pel_world *world, const struct pel_tiling *tiling,
-                     const uint8_t *only, const struct pel_render_options *options,
-                     struct pel_render_statistics *statistics) {
-    size_t pixels = count_pixels(world), packets = tiling->tiles * tiling->packets_per_tile;
-    // The kernel takes this for a later ray of each pixel, and goes on counting.
-    uint32_t *zeros = pel_allocate(packets * SAMPLE_COUNTS, sizeof *zeros);
-    bool good = zeros &&
-                pel_buffer_write(renderer->sample_counts, 0,
-                                 packets * SAMPLE_COUNTS * sizeof *zeros, zeros) &&
-                pel_buffer_write(renderer->resolve.refined, 0, pixels, only) &&
-                pel_kernel_set_u32(kernel, PEL_RAY_ARGUMENT, 0) &&
-                pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options,
-                              (struct pel_pass){0, 1});
-    free(zeros);
-    statistics->rays = 0;
-    for (size_t i = 0; i < pixels; i++)
-        statistics->rays += only[i] != 0;
-    return good;
-}
-
-// Runs the kernel as often as a picture needs.
-static bool run_passes(struct pel_renderer *renderer, struct pel_kernel *kernel,
-                       const struct pel_scene *scene, const struct pel_world *world,
-                       const struct pel_frame_eyes *eyes, const struct pel_tiling *tiling,
-                       const struct pel_render_options *options,
-                       struct pel_render_statistics *statistics) {
-    statistics->rays = (uint64_t)world->bytes.width * (uint64_t)world->bytes.height *
-                       (uint64_t)pel_world_eyes(world);
-    statistics->refined = 1;
-    if (eyes->only)
-        return run_only(renderer, kernel, world, tiling, eyes->only, options, statistics);
-    if (world->supersampling)
-        return run_rays(renderer, kernel, scene, world, tiling, options, statistics);
-    if (scene->render.debug == PEL_DEBUG_TIME) {
-        renderer->pace.tile_ms = pel_allocate(tiling->tiles, sizeof *renderer->pace.tile_ms);
-        if (!renderer->pace.tile_ms)
-            return false;
-    }
-    return pel_tiles_run(&renderer->pace, renderer->device, kernel, tiling, options,
-                         (struct pel_pass){0, 1});
 }
 
 // Makes a debug view's picture of what came from the device.
@@ -262,17 +175,32 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
     double mark = pel_clock_ms();
     int across = pel_world_across(world), planes = pel_world_planes(world);
     struct pel_image *image =
-        across > 1 ? pel_image_create(across * scene->render.width, planes * scene->render.height)
+        across > 1 ? pel_image_create_undefined(across * scene->render.width,
+                                                planes * scene->render.height)
                    : pel_share_create_image(&renderer->share, renderer->device, &scene->render,
                                             planes, options, statistics);
     if (!image || !pel_target_begin(&renderer->target, renderer->device, image)) {
         pel_image_destroy(image);
         return NULL;
     }
+    const struct pel_rays rays = {
+        .device = renderer->device,
+        .kernel = kernel,
+        .tiling = tiling,
+        .pace = &renderer->pace,
+        .resolve = &renderer->resolve,
+        .world_buffer = renderer->world.buffer,
+        .picture = renderer->target.buffer,
+        .sample_counts = renderer->sample_counts,
+        .scene = scene,
+        .world = world,
+        .only = eyes->only,
+        .options = options,
+    };
     bool adds_up = world->supersampling && !eyes->only;
     struct pel_buffer *light = adds_up ? renderer->resolve.light : renderer->target.buffer;
     bool good = pel_kernel_set_buffer(kernel, PEL_LIGHT_ARGUMENT, light) &&
-                run_passes(renderer, kernel, scene, world, eyes, tiling, options, statistics);
+                pel_rays_cast(&rays, statistics);
     statistics->render_ms = lap_ms(&mark);
     good = pel_target_end(&renderer->target, image, good) &&
            (scene->render.debug == PEL_DEBUG_NONE ||
@@ -291,18 +219,19 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
 
 // The picture of nothing: the background.
 static struct pel_image *render_background(const struct pel_world *world) {
-    struct pel_image *image = pel_image_create(pel_world_across(world) * world->bytes.width,
-                                               pel_world_planes(world) * world->bytes.height);
+    struct pel_image *image =
+        pel_image_create_undefined(pel_world_across(world) * world->bytes.width,
+                                   pel_world_planes(world) * world->bytes.height);
     if (!image)
         return NULL;
     const struct world *bytes = &world->bytes;
     const float4 *colour =
         world->eyes == EYES_MERGED ? &bytes->merged_background : &bytes->background;
-    size_t pixels = count_pixels(world);
+    size_t pixels = pel_world_pixels(world);
     for (size_t i = 0; i < pixels; i++)
         memcpy(&image->rgba[4 * i], colour, sizeof *colour);
     for (size_t i = pixels; i < (size_t)image->width * (size_t)image->height; i++)
-        image->rgba[4 * i] = FLT_MAX;
+        memcpy(&image->rgba[4 * i], (float[]){FLT_MAX, 0, 0, 0}, sizeof *colour);
     return image;
 }
 
@@ -343,15 +272,13 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     size_t pixel_bytes = (size_t)pel_world_planes(world) * sizeof(float4) +
                          (world->supersampling ? PEL_RESOLVE_BYTES : 0);
     if (!add_second(world, scene, eyes) ||
-        !pel_residency_check(layout, &limits, count_pixels(world) * pixel_bytes)) {
-        pel_world_finish(world);
+        !pel_residency_check(layout, &limits, pel_world_pixels(world) * pixel_bytes))
         return false;
-    }
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout->reader;
     statistics->skip = scene->render.skip;
     struct pel_skip_facts facts;
-    pel_skip_find_facts(&facts, scene, world, layout->reader);
+    pel_skip_find_facts(&facts, scene, world, &renderer->memo, layout->reader);
     if (scene->render.skip == PEL_SKIP_AUTO)
         statistics->skip = pel_skip_choose(&facts, statistics->skip_reason);
     else if (facts.nothing)
@@ -395,7 +322,6 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
         if (kernel)
             image = run(renderer, kernel, &shown, &world, eyes, &tiling, options, statistics);
     }
-    pel_world_finish(&world);
     if (image && !image->rgba &&
         !pel_share_put(&renderer->share, renderer->device, &renderer->target, image, &shown.render,
                        &scene->render, options, statistics)) {
@@ -452,7 +378,6 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
         .world = &world,
     };
     good = good && pel_probe_run(&inputs, x, y, probe);
-    pel_world_finish(&world);
     return good;
 }
 

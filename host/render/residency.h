@@ -28,8 +28,8 @@ bool pel_residency_check(const struct pel_layout *layout, const struct pel_layou
                          uint64_t frame_bytes);
 
 // Brings the scene's volumes to where `layout` puts them, and recipes that are worked out at every
-// sample beside them. Nothing is sent when they lie there
-// already. On failure (DEVICE, MEMORY) nothing stays on the device.
+// sample beside them. Nothing is sent when they lie there already. On failure (DEVICE, MEMORY)
+// nothing stays on the device.
 bool pel_residency_update(struct pel_residency *residency, const struct pel_scene *scene,
                           const struct pel_layout *layout, const struct pel_world *world);
 

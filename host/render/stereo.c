@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "output/image.h"
 #include "output/stereo.h"
 #include "render/frame.h"
 #include "render/reproject.h"
@@ -110,7 +111,7 @@ static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_
         struct pel_render_statistics of_frame;
         struct pel_image *eye = pel_frame_render(renderer, seen, &one, &of_eye, &of_frame);
         if (eye && !both)
-            both = pel_image_create(width, 2 * height);
+            both = pel_image_create_undefined(width, 2 * height);
         if (!eye || !both) {
             pel_image_destroy(eye);
             pel_image_destroy(both);
@@ -263,7 +264,7 @@ bool pel_renderer_render_eyes(struct pel_renderer *renderer, const struct pel_sc
     const struct pel_frame_eyes both = {.eyes = EYES_BOTH};
     struct pel_image *image = render_pair(renderer, scene, &both, options, statistics);
     for (int i = 0; image && i < 2; i++)
-        eyes[i] = pel_image_create(image->width, image->height / 2);
+        eyes[i] = pel_image_create_undefined(image->width, image->height / 2);
     bool good = eyes[0] && eyes[1];
     size_t floats = good ? (size_t)image->width * (size_t)eyes[0]->height * 4 : 0;
     for (int i = 0; good && i < 2; i++)

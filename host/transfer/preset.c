@@ -10,7 +10,6 @@
 // "Diverging color maps for scientific visualization". rainbow: Romero 2009, whose table of nine
 // entries is the one of NVIDIA's volumeRender sample, read as a texture.
 #include <assert.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -225,15 +224,6 @@ static struct pel_transfer *make(const struct preset *preset) {
     return transfer;
 }
 
-static void fail_unknown(const char *name) {
-    char list[512] = "";
-    for (int i = 0; names[i]; i++) {
-        size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", i ? ", " : "", names[i]);
-    }
-    pel_fail(PEL_ERROR_ARGUMENT, "no preset '%.64s'; there are %s", name, list);
-}
-
 const char *const *pel_transfer_presets(void) {
     return names;
 }
@@ -243,9 +233,11 @@ struct pel_transfer *pel_transfer_preset(const char *name) {
         if (strcmp(name, presets[i].name) == 0)
             return make(&presets[i]);
     const char *nearest = pel_text_nearest(name, names);
+    char list[512];
+    pel_text_list(list, sizeof list, names, preset_count, " and ");
     if (nearest)
         pel_fail(PEL_ERROR_ARGUMENT, "no preset '%.64s'; did you mean '%s'", name, nearest);
     else
-        fail_unknown(name);
+        pel_fail(PEL_ERROR_ARGUMENT, "no preset '%.64s'; there are %s", name, list);
     return NULL;
 }

@@ -14,9 +14,9 @@
 struct pel_transfer *pel_transfer_create(int colour_count, int opacity_count);
 
 // Fail (FORMAT) with a sentence that names the point and the value, unless values ascend and are
-// within +-1e37, percentiles lie in 0..100, colours and opacities in 0..1, the opacity
-// unit is positive, the table has 0 or 2..65536 entries and each curve a point. The second and
-// third look at one point and its predecessor only.
+// within +-1e37, percentiles lie in 0..100, colours and opacities in 0..1, the opacity unit is
+// positive, the table has 0 or 2..65536 entries and each curve a point. The second and third look
+// at one point and its predecessor only.
 bool pel_transfer_check(const struct pel_transfer *transfer);
 bool pel_transfer_check_colour(const struct pel_transfer *transfer, int point);
 bool pel_transfer_check_opacity(const struct pel_transfer *transfer, int point);

@@ -90,11 +90,13 @@ static void open_lender(struct pel_state *state) {
 }
 
 bool pel_screen_open(struct pel_state *state, char *sentence, size_t bytes) {
-    if (state->options->full_screen > pel_window_monitor_count()) {
-        snprintf(sentence, bytes, "there is no monitor %d: they are counted from 0 to %d",
-                 state->options->full_screen - 1, pel_window_monitor_count() - 1);
+    int monitors = pel_window_monitor_count(), wanted = state->options->full_screen - 1;
+    if (wanted >= monitors && monitors == 1)
+        snprintf(sentence, bytes, "there is no monitor %d, only 0", wanted);
+    else if (wanted >= monitors)
+        snprintf(sentence, bytes, "there is no monitor %d, only 0 to %d", wanted, monitors - 1);
+    if (wanted >= monitors)
         return false;
-    }
     bool wall = state->options->scene->wall.region_count > 0;
     state->sharing = is_sharing_possible();
     if (!(wall ? open_wall(state, sentence, bytes) : open_single(state, sentence, bytes)))

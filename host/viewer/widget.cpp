@@ -62,6 +62,70 @@ const struct {
     {ImGuiKey_Z, 'z'},
 };
 
+// Since 1.89 Dear ImGui is told what happened, and 1.91.5 took away some of the state that was
+// written before. What happened between two pictures counts at once, as it always did: a queue
+// that keeps a part for the next picture would wait for one that nothing else asks for.
+#if IMGUI_VERSION_NUM >= 18900
+
+void prepare_input(ImGuiIO &io) {
+    io.ConfigInputTrickleEventQueue = false;
+}
+
+void take_pointer(ImGuiIO &io, const pel_event *event) {
+    io.AddMousePosEvent(static_cast<float>(event->x), static_cast<float>(event->y));
+}
+
+void take_button(ImGuiIO &io, const pel_event *event) {
+    io.AddMouseButtonEvent(event->button, event->down);
+}
+
+void take_wheel(ImGuiIO &io, const pel_event *event) {
+    io.AddMouseWheelEvent(0, static_cast<float>(event->wheel));
+}
+
+void take_modifiers(ImGuiIO &io, const pel_event *event) {
+    io.AddKeyEvent(ImGuiMod_Shift, event->modifiers & PEL_SHIFT);
+    io.AddKeyEvent(ImGuiMod_Ctrl, event->modifiers & PEL_CONTROL);
+    io.AddKeyEvent(ImGuiMod_Alt, event->modifiers & PEL_ALT);
+}
+
+void take_key(ImGuiIO &io, const pel_event *event) {
+    for (const auto &key : keys)
+        if (key.ours == event->key)
+            io.AddKeyEvent(key.theirs, event->down && io.WantTextInput);
+}
+
+#else
+
+void prepare_input(ImGuiIO &io) {
+    for (const auto &key : keys)
+        io.KeyMap[key.theirs] = key.ours;
+}
+
+void take_pointer(ImGuiIO &io, const pel_event *event) {
+    io.MousePos = ImVec2(static_cast<float>(event->x), static_cast<float>(event->y));
+}
+
+void take_button(ImGuiIO &io, const pel_event *event) {
+    io.MouseDown[event->button] = event->down;
+}
+
+void take_wheel(ImGuiIO &io, const pel_event *event) {
+    io.MouseWheel += static_cast<float>(event->wheel);
+}
+
+void take_modifiers(ImGuiIO &io, const pel_event *event) {
+    io.KeyShift = event->modifiers & PEL_SHIFT;
+    io.KeyCtrl = event->modifiers & PEL_CONTROL;
+    io.KeyAlt = event->modifiers & PEL_ALT;
+}
+
+void take_key(ImGuiIO &io, const pel_event *event) {
+    io.KeysDown[event->key] = event->down && io.WantTextInput;
+}
+
+#endif
+
 } // namespace
 
 bool pel_widget_start(int window, double scale) {
@@ -76,8 +140,7 @@ bool pel_widget_start(int window, double scale) {
     // Until the pointer is seen it is nowhere.
     io.MousePos = ImVec2(-1e6f, -1e6f);
     style(static_cast<float>(scale));
-    for (const auto &key : keys)
-        io.KeyMap[key.theirs] = key.ours;
+    prepare_input(io);
     return ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
@@ -95,29 +158,25 @@ bool pel_widget_take_event(const struct pel_event *event) {
     ImGuiIO &io = ImGui::GetIO();
     switch (event->kind) {
     case PEL_EVENT_POINTER:
-        io.MousePos = ImVec2(static_cast<float>(event->x), static_cast<float>(event->y));
+        take_pointer(io, event);
         return io.WantCaptureMouse;
     case PEL_EVENT_BUTTON:
-        io.MousePos = ImVec2(static_cast<float>(event->x), static_cast<float>(event->y));
+        take_pointer(io, event);
         // A modifier that was let go of after its key is told by the next click.
-        io.KeyShift = event->modifiers & PEL_SHIFT;
-        io.KeyCtrl = event->modifiers & PEL_CONTROL;
-        io.KeyAlt = event->modifiers & PEL_ALT;
+        take_modifiers(io, event);
         // ImGui counts left, right, middle, as we do.
-        io.MouseDown[event->button] = event->down;
+        take_button(io, event);
         return io.WantCaptureMouse;
     case PEL_EVENT_WHEEL:
         if (io.WantCaptureMouse)
-            io.MouseWheel += static_cast<float>(event->wheel);
+            take_wheel(io, event);
         return io.WantCaptureMouse;
     case PEL_EVENT_TEXT:
         io.AddInputCharacter(event->text);
         return io.WantTextInput;
     case PEL_EVENT_KEY:
-        io.KeyShift = event->modifiers & PEL_SHIFT;
-        io.KeyCtrl = event->modifiers & PEL_CONTROL;
-        io.KeyAlt = event->modifiers & PEL_ALT;
-        io.KeysDown[event->key] = event->down && io.WantTextInput;
+        take_modifiers(io, event);
+        take_key(io, event);
         return io.WantTextInput;
     default:
         return false;

@@ -132,14 +132,13 @@ static const struct kind *find_kind(const char *name, bool second) {
     for (int i = 0; i < KIND_COUNT; i++)
         if (strcmp(name, kinds[i].name) == 0)
             return &kinds[i];
-    const char *nearest = pel_text_nearest(name, pel_generator_names());
+    const char *const *names = pel_generator_names(), *nearest = pel_text_nearest(name, names);
+    char list[256];
+    pel_text_list(list, sizeof list, names, pel_text_count(names), " and ");
     if (nearest)
         pel_fail(PEL_ERROR_ARGUMENT, "no generator '%.64s'; did you mean '%s'", name, nearest);
     else
-        pel_fail(PEL_ERROR_ARGUMENT,
-                 "no generator '%.64s'; there are sphere, box, shells, c60, hydrogen, "
-                 "marschner-lobb, shepp-logan, head-ct, head-mri, head-labels and head-pair",
-                 name);
+        pel_fail(PEL_ERROR_ARGUMENT, "no generator '%.64s'; there are %s", name, list);
     return NULL;
 }
 

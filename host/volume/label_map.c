@@ -2,8 +2,8 @@
 //
 // In a label map neighbours have the same number, but for the borders of what is labelled; in a
 // picture hardly two do. Counted along rows, among pairs of which neither is background: 0, or the
-// least value. Names are what 3D Slicer goes
-// by; a name alone may lie, and so may values, but not often both.
+// least value. Names are what 3D Slicer goes by; a name alone may lie, and so may values, but not
+// often both.
 #include "volume/label_map.h"
 
 #include <ctype.h>

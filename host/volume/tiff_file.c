@@ -3,9 +3,9 @@
 // libtiff reports through callbacks of its own handle, never on stderr, and may not allocate more
 // at once than a multiple of the file's size. Its errors become the sentence of a failure. Its
 // warnings about directories tell of oddities of the writer and are dropped; those about pixels
-// tell of damage and are passed on. It notices chains of directories that
-// loop; a chain that breaks off ends the stack there, with a warning. Sub-directories are not in
-// the chain, so they are never seen.
+// tell of damage and are passed on. It notices chains of directories that loop; a chain that breaks
+// off ends the stack there, with a warning. Sub-directories are not in the chain, so they are never
+// seen.
 #include "volume/tiff.h"
 
 #include <ctype.h>

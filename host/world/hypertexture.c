@@ -15,6 +15,7 @@
 #include "base/memory.h"
 #include "volume/hypertexture.h"
 #include "volume/volume.h"
+#include "world/narrow.h"
 #include "world/recipe.h"
 
 enum { SIZE_DEFAULT = 64, SIZE_MAX_VOXELS = 65536 };
@@ -92,10 +93,10 @@ static void place(struct recipe *program, const struct pel_volume *grid,
             bias[axis] = 0.5 * (count - 1);
         }
     }
-    program->grid_start = (float4){(float)start[0], (float)start[1], (float)start[2], 0};
-    program->grid_step = (float4){(float)step[0], (float)step[1], (float)step[2], 0};
-    program->object_scale = (float4){(float)scale[0], (float)scale[1], (float)scale[2], 0};
-    program->object_bias = (float4){(float)bias[0], (float)bias[1], (float)bias[2], 0};
+    program->grid_start = pel_narrow(start, 0);
+    program->grid_step = pel_narrow(step, 0);
+    program->object_scale = pel_narrow(scale, 0);
+    program->object_bias = pel_narrow(bias, 0);
     program->grid_dims = (int4){grid->dims[0], grid->dims[1], grid->dims[2], 0};
     program->time = (float)options->time;
 }

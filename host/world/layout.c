@@ -9,6 +9,7 @@
 #include "shared/grid.h"
 #include "world/brick.h"
 #include "world/model.h"
+#include "world/style.h"
 
 // Buffers are addressed with 31 bits per lane, whatever the device would allow.
 static const uint64_t buffer_limit = (uint64_t)1 << 31;
@@ -252,11 +253,9 @@ static bool border_pays(const struct pel_scene *scene) {
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];
         const struct pel_volume *volume = scene->volumes[instance->volume];
-        bool normals = instance->material.shading != PEL_SHADING_NONE ||
-                       instance->gradient_opacity_count > 0 || instance->silhouette.strength > 0;
         bool words =
             !volume->hypertexture && pel_voxel_class_bytes(pel_voxel_class(volume->type)) <= 2;
-        if (normals && words && instance->filter == PEL_FILTER_LINEAR &&
+        if (pel_style_needs_gradients(instance) && words && instance->filter == PEL_FILTER_LINEAR &&
             instance->gradient == PEL_GRADIENT_CENTRAL)
             return true;
     }
@@ -287,7 +286,7 @@ static int pool_margin(const struct pel_scene *scene) {
         const struct pel_instance *instance = &scene->instances[k];
         int reach =
             instance->filter == PEL_FILTER_LINEAR || instance->filter == PEL_FILTER_NEAREST ? 0 : 2;
-        if (instance->material.shading != PEL_SHADING_NONE)
+        if (pel_style_needs_gradients(instance))
             reach += 2;
         margin = reach > margin ? reach : margin;
     }

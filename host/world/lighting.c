@@ -7,13 +7,10 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "camera/camera.h"
+#include "world/narrow.h"
 
 static bool is_amount(double value) {
     return value >= 0 && value <= PEL_LIGHT_AMOUNT_MAX;
-}
-
-static float4 to_float4(const double v[3]) {
-    return (float4){(float)v[0], (float)v[1], (float)v[2], 0};
 }
 
 // Turns the way light goes into where it comes from.
@@ -23,7 +20,7 @@ static bool fill_direction(struct lamp *lamp, const double along[3]) {
         return pel_fail(PEL_ERROR_ARGUMENT, "the direction %g %g %g has no length", along[0],
                         along[1], along[2]);
     lamp->kind = LAMP_DIRECTIONAL;
-    lamp->place = to_float4(towards);
+    lamp->place = pel_narrow(towards, 0);
     return true;
 }
 
@@ -47,7 +44,7 @@ static bool fill_place(struct lamp *lamp, const struct pel_light *light,
             return pel_fail(PEL_ERROR_ARGUMENT, "a position is not finite");
     }
     lamp->kind = LAMP_POINT;
-    lamp->place = to_float4(place);
+    lamp->place = pel_narrow(place, 0);
     return true;
 }
 
@@ -61,7 +58,7 @@ static bool fill_lamp(struct lamp *lamp, const struct pel_light *light,
             return pel_fail(PEL_ERROR_ARGUMENT, "colour times intensity is %g, outside 0..%g",
                             colour[i], PEL_LIGHT_AMOUNT_MAX);
     }
-    lamp->colour = to_float4(colour);
+    lamp->colour = pel_narrow(colour, 0);
     return fill_place(lamp, light, camera, centre);
 }
 

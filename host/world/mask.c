@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "world/narrow.h"
 
 int pel_mask_of(const struct pel_instance *instance) {
     return instance->mask.range_count > 0 ? instance->mask.instance : -1;
@@ -73,8 +74,7 @@ static void add_matrix(struct pel_world *world, const struct pel_matrix *voxel_f
         double offset = row[3] + shift_of(to, i);
         for (int c = 0; c < 3; c++)
             offset -= row[c] * shift_of(from, c);
-        world->bytes.cuts[world->cut_count++] =
-            (float4){(float)row[0], (float)row[1], (float)row[2], (float)offset};
+        world->bytes.cuts[world->cut_count++] = pel_narrow(row, offset);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "world/narrow.h"
 
 static const char *const model_names[] = {"default", "absorption", "emission", "mip", "minip",
                                           "average", "iso",        "thesis",   NULL};
@@ -199,8 +200,7 @@ static void fill_surfaces(struct part *part, const struct pel_instance *instance
             part->surfaces[place] = part->surfaces[place - 1];
         }
         values[place] = value;
-        part->surfaces[place] =
-            (float4){(float)rgb[0], (float)rgb[1], (float)rgb[2], (float)surface->opacity};
+        part->surfaces[place] = pel_narrow(rgb, surface->opacity);
     }
     for (int n = part->surface_count; n < PEL_SURFACE_MAX; n++)
         values[n] = 0;

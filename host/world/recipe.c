@@ -1,7 +1,6 @@
 // recipe.c - hypertexture recipes by name, from files, and as text.
 #include "world/recipe.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,10 +48,9 @@ static bool compile_preset(struct recipe *program, const char *name) {
     const char *nearest = pel_text_nearest(name, names);
     if (nearest)
         return pel_fail(PEL_ERROR_ARGUMENT, "no recipe '%s'; did you mean '%s'", name, nearest);
-    char list[256] = "";
-    for (size_t i = 0, used = 0; names[i] && used < sizeof list; i++)
-        used += (size_t)snprintf(list + used, sizeof list - used, " %s", names[i]);
-    return pel_fail(PEL_ERROR_ARGUMENT, "no recipe '%s', there are%s, and files, *.json", name,
+    char list[256];
+    pel_text_list(list, sizeof list, names, pel_text_count(names), " and ");
+    return pel_fail(PEL_ERROR_ARGUMENT, "no recipe '%s'; there are %s, and files, *.json", name,
                     list);
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "world/model.h"
+#include "world/style.h"
 
 // What the visible volumes are, all together.
 struct census {
@@ -18,11 +19,6 @@ struct census {
 
 static const char *model_name(const struct pel_scene *scene, const struct pel_instance *instance) {
     return pel_model_names()[pel_model_of(scene, instance)];
-}
-
-static bool is_styled(const struct pel_instance *instance) {
-    return instance->gradient_opacity_count > 0 || instance->silhouette.base != 0 ||
-           instance->silhouette.strength != 0;
 }
 
 // Media and surfaces are shaded, projections are not (docs/picture.md, "Optical models").
@@ -43,7 +39,7 @@ static struct census count(const struct pel_scene *scene) {
         census.emitting += model == PEL_MODEL_EMISSION;
         census.preintegrated += pel_model_is_preintegrated(scene, instance);
         census.lit += is_lit(scene, instance);
-        census.follows_gradient |= is_lit(scene, instance) || is_styled(instance);
+        census.follows_gradient |= is_lit(scene, instance) || pel_style_is_on(instance);
     }
     return census;
 }
@@ -95,10 +91,10 @@ static void remark_volume(const struct pel_scene *scene, const struct pel_instan
     if (instance->material.shading != PEL_SHADING_NONE && !is_lit(scene, instance))
         pel_warn("volume '%s': model %s is not shaded", instance->name,
                  model_name(scene, instance));
-    if (is_styled(instance) && model != PEL_MODEL_ABSORPTION)
+    if (pel_style_is_on(instance) && model != PEL_MODEL_ABSORPTION)
         pel_warn("volume '%s': with model %s opacity does not follow the gradient", instance->name,
                  model_name(scene, instance));
-    else if (is_styled(instance) && pel_model_is_preintegrated(scene, instance))
+    else if (pel_style_is_on(instance) && pel_model_is_preintegrated(scene, instance))
         pel_warn("volume '%s': pre-integrated, its opacity does not follow the gradient",
                  instance->name);
 }

@@ -2,8 +2,8 @@
 //
 // The window reaches from the 2nd to the 98th percentile, so that a few outliers do not decide it.
 // Inside it Otsu's threshold (1979) parts background from object: opacity is 0 up to half way from
-// the window's bottom to the threshold and grows from there. Opacity is per length, so
-// its unit follows the volume's size: light crosses about a dozen units.
+// the window's bottom to the threshold and grows from there. Opacity is per length, so its unit
+// follows the volume's size: light crosses about a dozen units.
 #include "world/scene_plan.h"
 
 #include <math.h>

@@ -229,17 +229,11 @@ bool pel_node_check_name(const struct pel_scene_node *node, const char *const *n
     }
     // All names, unless that would be more than a person reads.
     char list[PLACE_BYTES / 2] = "";
-    int count = 0;
-    while (names[count])
-        count++;
-    int shown = count <= LIST_NAMES ? count : LIST_SHOWN;
+    int count = pel_text_count(names), shown = count <= LIST_NAMES ? count : LIST_SHOWN;
     if (shown < count)
         snprintf(list, sizeof list, "one of %d names such as ", count);
-    for (int i = 0; i < shown; i++) {
-        size_t used = strlen(list);
-        const char *between = i == 0 ? "" : i + 1 < shown ? ", " : " or ";
-        snprintf(list + used, sizeof list - used, "%s%s", between, names[i]);
-    }
+    size_t used = strlen(list);
+    pel_text_list(list + used, sizeof list - used, names, shown, " or ");
     const char *nearest = shown < count ? pel_text_nearest(text, names) : NULL;
     if (!nearest && shown < count)
         nearest = find_part(text, names);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "shared/pattern.h"
+#include "world/narrow.h"
 
 static const double step_usual = 2;
 static const int directions_usual = 16;
@@ -62,8 +63,7 @@ static void fill_directions(struct pel_world *world, int count, u32 seed) {
         double z = 1 - (k + 0.5) / count, r = sqrt(1 - z * z);
         double d[3] = {r * cos(golden * k), r * sin(golden * k), z};
         pel_matrix_direction(d, &turn, d);
-        world->bytes.cuts[world->cut_count + k] =
-            (float4){(float)d[0], (float)d[1], (float)d[2], 0};
+        world->bytes.cuts[world->cut_count + k] = pel_narrow(d, 0);
     }
     world->bytes.occlusion_count = count;
 }

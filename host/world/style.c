@@ -64,14 +64,26 @@ static bool fill_silhouette(struct part *part, const struct pel_silhouette *silh
     return true;
 }
 
+static bool is_outlined(const struct pel_silhouette *silhouette) {
+    return silhouette->base != 0 || silhouette->strength != 0 || silhouette->exponent != 0;
+}
+
+bool pel_style_is_on(const struct pel_instance *instance) {
+    return is_outlined(&instance->silhouette) || instance->gradient_opacity_count != 0;
+}
+
+bool pel_style_needs_gradients(const struct pel_instance *instance) {
+    return instance->material.shading != PEL_SHADING_NONE || pel_style_is_on(instance);
+}
+
 bool pel_style_fill_part(struct part *part, const struct pel_instance *instance, double range) {
     if ((unsigned)instance->gradient > PEL_GRADIENT_ANALYTIC)
         return pel_fail(PEL_ERROR_ARGUMENT, "gradient %d", (int)instance->gradient);
     // The numbers of shared/variant.h are in the order of the enum.
     part->gradient = (i32)instance->gradient;
     const struct pel_silhouette *silhouette = &instance->silhouette;
-    bool outlined = silhouette->base != 0 || silhouette->strength != 0 || silhouette->exponent != 0;
-    part->styled = outlined || instance->gradient_opacity_count != 0;
+    part->styled = pel_style_is_on(instance);
     part->silhouette = (float4){1, 0, 1, 1};
-    return fill_ramps(part, instance, range) && (!outlined || fill_silhouette(part, silhouette));
+    return fill_ramps(part, instance, range) &&
+           (!is_outlined(silhouette) || fill_silhouette(part, silhouette));
 }

@@ -1,7 +1,7 @@
 // projection.cl - one value for a whole ray: `mip`, `minip` and `average`.
 //
-// It is known at the end only. A projection therefore remembers the light that was gathered before its place, and is
-// slipped in behind that in the end.
+// It is known at the end only. A projection therefore remembers the light that was gathered before
+// its place, and is slipped in behind that in the end.
 #ifndef PROJECTION_CL
 #define PROJECTION_CL
 

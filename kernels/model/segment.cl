@@ -1,7 +1,8 @@
 // segment.cl - absorption between one sample and the next, from a table of pairs of values.
 //
-// Entry (f, b) of the table holds what a step shows whose value goes evenly from f to b, so that a shell thinner than a step
-// is not missed (pre-integration: Engel, Kraus & Ertl 2001): its optical depth and its colour.
+// Entry (f, b) of the table holds what a step shows whose value goes evenly from f to b, so that a
+// shell thinner than a step is not missed (pre-integration: Engel, Kraus & Ertl 2001): its optical
+// depth and its colour.
 #ifndef SEGMENT_CL
 #define SEGMENT_CL
 
@@ -10,7 +11,8 @@
 #include "model/surface.cl"
 
 #if MODELS & MODELS_PREINTEGRATED
-// Where a value lies in one direction of the table: the entry below, and the weight of the one above.
+// Where a value lies in one direction of the table: the entry below, and the weight of the one
+// above.
 struct side {
     integer entry;
     real weight;
@@ -26,7 +28,8 @@ INLINE struct side find_side(__constant struct part *part, real raw) {
     return side;
 }
 
-// What the step before the spot shows. Colours are weighted by strength, as those of entries that show nothing mean nothing.
+// What the step before the spot shows. Colours are weighted by strength, as those of entries that
+// show nothing mean nothing.
 INLINE mask gather_segment(__constant struct world *world, TABLE_SPACE const uint *table,
                            MEMORY_PARAMETERS, const struct crossing *crossing,
                            const struct gathered *gathered, const struct spot *spot, real raw,

@@ -18,7 +18,8 @@ INLINE struct sample sample_between(MEMORY_PARAMETERS, const struct spot *spot, 
 }
 
 #if SHADING
-// Shades a colour at a place between samples, where the raw value is given, in the lanes that show it.
+// Shades a colour at a place between samples, where the raw value is given, in the lanes that show
+// it.
 INLINE void shade_between(FRAME_PARAMETERS, MEMORY_PARAMETERS, const struct crossing *crossing,
                           const struct spot *spot, real t, real raw, mask where, real *r, real *g, real *b) {
     const struct cursor *cursor = spot->cursor;
@@ -67,7 +68,8 @@ INLINE real raw_before(__constant struct world *world, MEMORY_PARAMETERS,
     return before;
 }
 
-// After a segment that shows nothing: a segment leads out of empty space only behind the first sample that is not in it.
+// After a segment that shows nothing: a segment leads out of empty space only behind the first
+// sample that is not in it.
 INLINE void leap_segments(__global const uchar *cells, const struct spot *spot) {
     struct cursor *cursor = spot->cursor;
     cursor->next =
@@ -100,7 +102,8 @@ INLINE mask gather_surfaces(FRAME_PARAMETERS, MEMORY_PARAMETERS, struct gathered
     const real before = raw_before(world, MEMORY_ARGUMENTS, crossing, gathered, spot, &known);
     __constant struct part *part = spot->part;
     __constant const float *values = (__constant const float *)&part->surface_values;
-    // In the order in which the ray meets them. Back to front each comes before those already there.
+    // In the order in which the ray meets them. Back to front each comes before those already
+    // there.
     const mask upwards = MASK(raw > before);
     struct light own = no_light();
     for (int n = 0; n < part->surface_count; n++) {

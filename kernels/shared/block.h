@@ -1,10 +1,11 @@
 // block.h - two-level sparse blocks of a part (Derin et al. 2021), the same for host and kernels.
 //
-// The part's memory is cut into sub-blocks, cubes of 8 voxels a side or as bricks.size says, and these into blocks of
-// BLOCK_SIDE^3. A block is stored where it has a sub-block with something in it, and knows the blocks beside it. Its
-// sub-blocks are addressed by 8 bits: each place in it has the number of one of those that are stored, or
-// BLOCK_ABSENT. Of each stored sub-block one byte tells the bins that values in it touch, of BLOCK_BINS over the
-// transfer function's table. One buffer has it all:
+// The part's memory is cut into sub-blocks, cubes of 8 voxels a side or as bricks.size says, and
+// these into blocks of BLOCK_SIDE^3. A block is stored where it has a sub-block with something in
+// it, and knows the blocks beside it. Its sub-blocks are addressed by 8 bits: each place in it has
+// the number of one of those that are stored, or BLOCK_ABSENT. Of each stored sub-block one byte
+// tells the bins that values in it touch, of BLOCK_BINS over the transfer function's table. One
+// buffer has it all:
 //
 //     struct block_grid grids[WORLD_PART_MAX]
 //     of each part:  struct bvh_node nodes[]     over its blocks; above the two bits of each axis, the bins below it

@@ -1,16 +1,18 @@
 // brick.h - how the `buffer` reader stores voxels, the same for host and kernels.
 //
-// A part's memory is cut into bricks of BRICK_SIDE^3 voxels. Each is stored with one voxel more along every axis, the
-// first of the brick behind it, so that all eight corners of a cell lie in one brick, at fixed distances from the
-// first: rows are a few cache lines apart instead of pages, and a ray across them touches as few as one along them.
-// Bricks with a border have one more still, and one before the first: then the same holds for all voxels that the
-// gradient in a cell is made of.
+// A part's memory is cut into bricks of BRICK_SIDE^3 voxels. Each is stored with one voxel more
+// along every axis, the first of the brick behind it, so that all eight corners of a cell lie in
+// one brick, at fixed distances from the first: rows are a few cache lines apart instead of pages,
+// and a ray across them touches as few as one along them. Bricks with a border have one more still,
+// and one before the first: then the same holds for all voxels that the gradient in a cell is made
+// of.
 //
 //     brick      z * brick_slice + y * brick_row + x      bricks in order, x fastest
 //     voxel      FIRST + z * SLICE + y * ROW + x      within a brick, x fastest
 //
-// Voxels of one byte are stored in twos, each with the next one along y behind it, so that one load of four bytes
-// fetches four corners. Wide loads may touch 12 bytes before and behind the voxels they are for.
+// Voxels of one byte are stored in twos, each with the next one along y behind it, so that one load
+// of four bytes fetches four corners. Wide loads may touch 12 bytes before and behind the voxels
+// they are for.
 #ifndef SHARED_BRICK_H
 #define SHARED_BRICK_H
 
@@ -19,8 +21,8 @@
 #define BRICK_BITS 4
 #define BRICK_SIDE (1 << BRICK_BITS)
 
-// All of a brick, without or with a border (0 or 1). Elements from one stored row and slice to the next; of a whole
-// brick, some cache lines; before the first one stored; and before voxel 0.
+// All of a brick, without or with a border (0 or 1). Elements from one stored row and slice to the
+// next; of a whole brick, some cache lines; before the first one stored; and before voxel 0.
 #define BRICK_ROW_OF(border) (BRICK_SIDE + 1 + 2 * (border))
 #define BRICK_SLICE_OF(border) (BRICK_ROW_OF(border) * BRICK_ROW_OF(border))
 #define BRICK_VOXELS_OF(border) (4928 + 1984 * (border))

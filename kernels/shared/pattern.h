@@ -1,10 +1,12 @@
-// pattern.h - where in its pixel a ray goes through, and other seeded choices; the same bits for host and kernels.
+// pattern.h - where in its pixel a ray goes through, and other seeded choices; the same bits for
+// host and kernels.
 //
-// A choice is a function of (seed, pixel, number) and of nothing else, so pictures repeat whatever computes them and in
-// whatever order. Everything is 32-bit integer arithmetic; places are whole multiples of 2^-24 pixel, which floats hold
-// exactly. Sources: regular, jittered and n-rooks after Shirley 1991 (Discrepancy as a quality measure for sample
-// distributions); multi-jittered after Chiu, Shirley & Wang 1994 (Graphics Gems IV), its shuffles computed one element
-// at a time as Kensler 2013 does (Correlated multi-jittered sampling); Hammersley after Wong, Luk & Heng 1997.
+// A choice is a function of (seed, pixel, number) and of nothing else, so pictures repeat whatever
+// computes them and in whatever order. Everything is 32-bit integer arithmetic; places are whole
+// multiples of 2^-24 pixel, which floats hold exactly. Sources: regular, jittered and n-rooks after
+// Shirley 1991 (Discrepancy as a quality measure for sample distributions); multi-jittered after
+// Chiu, Shirley & Wang 1994 (Graphics Gems IV), its shuffles computed one element at a time as
+// Kensler 2013 does (Correlated multi-jittered sampling); Hammersley after Wong, Luk & Heng 1997.
 #ifndef SHARED_PATTERN_H
 #define SHARED_PATTERN_H
 
@@ -56,8 +58,9 @@ static inline u32 pattern_draw(u32 key, u32 number) {
     return pattern_scramble(key + (number + 1) * 0x9e3779b9u);
 }
 
-// Where element i of `count` (at most PATTERN_RAYS_MAX) goes in a shuffle. Each step is one to one on the numbers of as
-// many bits as count - 1 has; whoever leaves the range goes on until he is back in it.
+// Where element i of `count` (at most PATTERN_RAYS_MAX) goes in a shuffle. Each step is one to one
+// on the numbers of as many bits as count - 1 has; whoever leaves the range goes on until he is
+// back in it.
 static inline u32 pattern_shuffle(u32 i, u32 count, u32 choice) {
     u32 bits = 0;
     while (1u << bits < count)
@@ -82,8 +85,8 @@ static inline u32 pattern_radical_inverse(u32 s) {
     return inverse;
 }
 
-// Somewhere in cell `cell` of `count` that share a side evenly. The last bits are set so that rounding down does not
-// leave the cell.
+// Somewhere in cell `cell` of `count` that share a side evenly. The last bits are set so that
+// rounding down does not leave the cell.
 static inline u32 pattern_in_cell(u32 cell, u32 count, u32 choice) {
     return ((cell << 24) + ((choice & 0xffffffu) | (PATTERN_RAYS_MAX - 1))) / count;
 }

@@ -1,8 +1,8 @@
 // types.h - the fixed-size types of structs that host C and OpenCL C share.
 //
-// Members are i32, u32, float, float4 and int4, and arrays and structs of these; never float3, bool,
-// size_t, enum or a pointer. Both compilers check every size (SHARED_ASSERT), and a test asks the
-// device for every offset.
+// Members are i32, u32, float, float4 and int4, and arrays and structs of these; never float3,
+// bool, size_t, enum or a pointer. Both compilers check every size (SHARED_ASSERT), and a test asks
+// the device for every offset.
 #ifndef SHARED_TYPES_H
 #define SHARED_TYPES_H
 

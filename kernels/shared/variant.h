@@ -19,8 +19,8 @@
 // Of a part that is not mixed with others: its model is none of absorption.
 #define MEDIUM_NONE (-1)
 
-// VOXELS: which classes of voxels occur, one bit each. Signed integers are stored with their sign bit
-// flipped, as unsigned ones; RGB is stored as RGBA with the luminance as alpha.
+// VOXELS: which classes of voxels occur, one bit each. Signed integers are stored with their sign
+// bit flipped, as unsigned ones; RGB is stored as RGBA with the luminance as alpha.
 #define VOXELS_U8 1
 #define VOXELS_U16 2
 #define VOXELS_F32 4
@@ -82,8 +82,8 @@
 // Ramps that opacity follows with the gradient.
 #define GRADIENT_RAMPS 3
 
-// The gradient, in ranges of the table per voxel, at which a normal has half its squared length: so small a one
-// in floats has no direction to be trusted.
+// The gradient, in ranges of the table per voxel, at which a normal has half its squared length: so
+// small a one in floats has no direction to be trusted.
 #define SHADE_SOFTNESS 0x1p-16f
 
 // Of a lamp: where its light comes from.
@@ -99,7 +99,8 @@
 #define EYES_DEPTH 4 // one picture, and behind it how far away what each pixel shows is
 #define EYES_MERGED 5 // one picture, each pixel a colour made of both eyes' (kernels/glasses.cl)
 
-// What a debug view shows of each ray (kernels/debug.cl). The knob DEBUG is 1 when the device counts.
+// What a debug view shows of each ray (kernels/debug.cl). The knob DEBUG is 1 when the device
+// counts.
 #define DEBUG_NONE 0
 #define DEBUG_SAMPLES 1    // samples taken
 #define DEBUG_SPANS 2      // spans with a constant set of parts
@@ -120,8 +121,8 @@
 // Pixels along a side of the square tiles in which work is handed out.
 #define TILE_PX 16
 
-// Voxels are bound as this many buffers, so that a quarter of the device's memory each, which OpenCL
-// guarantees, is all of it.
+// Voxels are bound as this many buffers, so that a quarter of the device's memory each, which
+// OpenCL guarantees, is all of it.
 #define VOXEL_BUFFERS 4
 
 #endif

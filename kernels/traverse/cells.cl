@@ -3,7 +3,8 @@
 //
 // To look into another cell costs a quarter of a sample, so a packet leaps on until one of its rays
 // has come to something, and takes its next sample there. Samples stay where they are, so the
-// picture is the same. Included by span.cl.
+// picture is the same.
+// Included by span.cl.
 #ifndef CELLS_CL
 #define CELLS_CL
 
@@ -32,9 +33,7 @@ INLINE integer cursor_leap(__constant struct part *part, __global const uchar *c
     asks &= MASK(i < cursor->end);
     while (any_lane(asks)) {
         const struct place place = cursor_place(cursor, i);
-        const integer cell = (TO_INTEGER(place.z) >> CELL_BITS) * part->cell_slice +
-                             (TO_INTEGER(place.y) >> CELL_BITS) * part->cell_row +
-                             (TO_INTEGER(place.x) >> CELL_BITS) + (int)part->cells;
+        const integer cell = place_cell(part, &place);
         const integer empty = TO_INTEGER(GATHER(uchar, LOAD_CELL, cell));
         const mask leaps = MASK(empty > 0);
         if (!any_lane(leaps & asks))

@@ -7,6 +7,7 @@
 #define CURSOR_CL
 
 #include "ray.cl"
+#include "shared/grid.h"
 
 #ifndef POOL
 #define POOL 0
@@ -81,6 +82,26 @@ INLINE struct cursor cursor_begin(__constant struct world *world, __constant str
 // The sample of the part that is nearest to sample i, so that no lane reads beyond it.
 INLINE integer cursor_clamp(const struct cursor *cursor, integer i) {
     return max(min(i, cursor->end - 1), cursor->first);
+}
+
+// A position in memory coordinates.
+struct place {
+    real x, y, z;
+};
+
+// Where a cursor's sample i is, or the sample of the part that is nearest to it.
+INLINE struct place cursor_place(const struct cursor *cursor, integer i) {
+    const real t = TO_REAL(cursor_clamp(cursor, i));
+    const struct place place = {cursor->ox + t * cursor->dx, cursor->oy + t * cursor->dy,
+                                cursor->oz + t * cursor->dz};
+    return place;
+}
+
+// The cell of a part that a place lies in, counted over all parts.
+INLINE integer place_cell(__constant struct part *part, const struct place *place) {
+    return (TO_INTEGER(place->z) >> CELL_BITS) * part->cell_slice +
+           (TO_INTEGER(place->y) >> CELL_BITS) * part->cell_row +
+           (TO_INTEGER(place->x) >> CELL_BITS) + (int)part->cells;
 }
 
 #endif

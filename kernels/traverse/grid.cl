@@ -1,10 +1,10 @@
 // grid.cl - skips by a grid of cells.
 //
 // Each cell holds how far away the nearest cell is in which something may be visible: 0 for itself,
-// else the Chebyshev distance in cells. A ray in a cell at distance d leaves the empty cube of 2 d
-// - 1 cells at once
-// (`distance`; Cohen & Sheffer 1994, proximity clouds), or the one cell it is in (`grid`; the DDA
-// of Amanatides & Woo 1987, one cell a leap). Included by cells.cl.
+// else the Chebyshev distance in cells. A ray in a cell at distance d leaves the empty cube of
+// 2 d - 1 cells at once (`distance`; Cohen & Sheffer 1994, proximity clouds), or the one cell it is
+// in (`grid`; the DDA of Amanatides & Woo 1987, one cell a leap).
+// Included by cells.cl.
 #ifndef GRID_CL
 #define GRID_CL
 

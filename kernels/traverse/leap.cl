@@ -1,4 +1,4 @@
-// leap.cl - what the ways to skip by cells share: where a ray is, and how far to the next plane.
+// leap.cl - what the ways to skip by cells share: how far a ray has to go to the next plane.
 //
 // Included by span.cl before cells.cl and blocks.cl.
 #ifndef LEAP_CL
@@ -7,19 +7,6 @@
 #include "traverse/cursor.cl"
 
 #if SKIP != SKIP_NONE && SKIP != SKIP_BVH
-
-// A position in memory coordinates.
-struct place {
-    real x, y, z;
-};
-
-// Where a cursor's sample i is, or the sample of the part that is nearest to it.
-INLINE struct place cursor_place(const struct cursor *cursor, integer i) {
-    const real t = TO_REAL(cursor_clamp(cursor, i));
-    const struct place place = {cursor->ox + t * cursor->dx, cursor->oy + t * cursor->dy,
-                                cursor->oz + t * cursor->dz};
-    return place;
-}
 
 // How many samples from x on lie before the ray meets a plane between voxels, along one axis.
 INLINE real samples_to_plane(real x, real delta, integer plane) {

@@ -4,7 +4,8 @@
 // bits (a linear octree; Gargantini 1982). occupancy.cl leaves in each cell one more than the level
 // of the largest empty node around it, so the descent from the root that a stackless traversal
 // restarts at every step (Laine & Karras 2010 keep a stack for it) is a single look-up, and the ray
-// leaves that node at once. Included by cells.cl.
+// leaves that node at once.
+// Included by cells.cl.
 #ifndef OCTREE_CL
 #define OCTREE_CL
 

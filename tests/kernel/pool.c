@@ -48,13 +48,23 @@ static void test_same_picture(void **state) {
     static const struct {
         enum pel_voxel_type type;
         enum pel_skip skip;
-        bool shaded;
+        bool shaded, styled;
         int lanes;
-    } cases[] = {{PEL_VOXEL_U8, PEL_SKIP_BLOCKS, false, 4},
-                 {PEL_VOXEL_F32, PEL_SKIP_NONE, true, 1}};
+    } cases[] = {{PEL_VOXEL_U8, PEL_SKIP_BLOCKS, false, false, 4},
+                 {PEL_VOXEL_U8, PEL_SKIP_BVH, false, true, 4},
+                 {PEL_VOXEL_F32, PEL_SKIP_NONE, true, false, 1}};
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, cases[n].lanes);
         struct pel_scene *scene = scene_of_balls(cases[n].type, cases[n].shaded);
+        // What can be seen ends just behind the face of a brick: gradients reach into one of which
+        // nothing can.
+        if (cases[n].styled) {
+            struct pel_instance *instance = &scene->instances[0];
+            instance->transfer->opacities[1].value = 80;
+            instance->gradient = PEL_GRADIENT_SOBEL;
+            instance->gradient_opacity_count = 2;
+            instance->gradient_opacity[1] = (struct pel_gradient_point){30, 1};
+        }
         struct pel_render_statistics whole, pooled;
         // A hole without values: the brick that stands in for those that are not there has none.
         if (cases[n].type == PEL_VOXEL_F32)

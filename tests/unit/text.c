@@ -1,10 +1,26 @@
-// The nearest word, and places in JSON text.
+// Lists of words, the nearest word, and places in JSON text.
 #include "support/test.h"
 
 #include "base/text.h"
 
 static const char *const known[] = {"camera", "background", "volumes", "render", "output",
                                     "colour", "fov",        "eye",     NULL};
+
+static void test_lists(void **state) {
+    (void)state;
+    char text[64];
+    assert_int_equal(pel_text_count(known), 8);
+    assert_int_equal(pel_text_count(known + 8), 0);
+    pel_text_list(text, sizeof text, known, 3, " or ");
+    assert_string_equal(text, "camera, background or volumes");
+    pel_text_list(text, sizeof text, known, 1, " or ");
+    assert_string_equal(text, "camera");
+    pel_text_list(text, sizeof text, known, 0, " or ");
+    assert_string_equal(text, "");
+    char cut[12];
+    pel_text_list(cut, sizeof cut, known, 8, " and ");
+    assert_string_equal(cut, "camera, bac");
+}
 
 static void test_finds_slips(void **state) {
     (void)state;
@@ -92,6 +108,7 @@ static void test_locates_in_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_lists),
         cmocka_unit_test(test_finds_slips),
         cmocka_unit_test(test_does_not_guess_wildly),
         cmocka_unit_test(test_prefers_the_nearest_and_then_the_first),

@@ -124,7 +124,7 @@ try() {
     diff <(grep '\*' modes) <(grep '\*' after) || complain "$1: a monitor has another mode"
 }
 
-expect 6 'there is no monitor 2: they are counted from 0 to 1' view scene.json --full-screen=2
+expect 6 'there is no monitor 2, only 0 to 1' view scene.json --full-screen=2
 try "no window manager"
 if command -v openbox >/dev/null; then
     openbox >/dev/null 2>&1 &

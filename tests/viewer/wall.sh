@@ -83,5 +83,5 @@ same "after a drag" after.ppm after-whole.ppm
 [ "$(differ after.ppm whole.ppm)" != 0 ] || complain "the drag changed nothing"
 
 # A monitor that is not there.
-expect 6 'there is no monitor 7: they are counted from 0 to 0' view scene.json --full-screen=7
+expect 6 'there is no monitor 7, only 0' view scene.json --full-screen=7
 exit $failed

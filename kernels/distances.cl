@@ -1,4 +1,4 @@
-// distance.cl - from the empty cells of a part to each one's distance from something that may be visible.
+// distances.cl - from the empty cells of a part to each one's distance from something that may be visible.
 //
 // The Chebyshev distance separates: D(x) = min over k of max(|k|, D(x + k)), one axis after the other. Along x, where there
 // is nothing but 0 and CELL_DISTANCE_MAX before, a row is swept to and fro. Along y and z, 16 cells that lie beside each other
@@ -6,8 +6,8 @@
 //
 // The last 16 cells of a row may have some in common with those before. Of a row with fewer, what is loaded behind its end, in
 // the buffer's slack (CELL_SLACK) at the last, counts for nothing. Included by occupancy.cl.
-#ifndef DISTANCE_CL
-#define DISTANCE_CL
+#ifndef DISTANCES_CL
+#define DISTANCES_CL
 
 #include "shared/grid.h"
 
