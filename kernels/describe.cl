@@ -1,4 +1,5 @@
-// describe.cl - the device's own idea of the structs it shares with the host, for the test that compares the two.
+// describe.cl - the device's own idea of the structs it shares with the host, for the test that
+// compares the two.
 #include "shared/recipe.h"
 #include "shared/world.h"
 

@@ -1,9 +1,9 @@
 // render.cl - the only sampled ray loop.
 //
-// A work-item follows one packet of rays through all parts that they cross. Sample i of a ray lies at
-// t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. The cost of a
-// sample follows the parts that the packet is in (active.cl). Each part has a cursor; after a sample in which
-// nothing was visible the ray goes on to the least of the cursors' answers.
+// A work-item follows one packet of rays through all parts that they cross. Sample i of a ray lies
+// at t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. The
+// cost of a sample follows the parts that the packet is in (active.cl). Each part has a cursor;
+// after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
 #include "depth.cl"
 #include "mix.cl"
@@ -185,9 +185,10 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #include "packet.cl"
 #include "glasses.cl"
 
-// Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX pixels. Writes
-// premultiplied RGBA, rows from the top, and each packet's numbers of samples (SAMPLE_COUNTS). A work-item of two eyes
-// leaves the second one's numbers behind those of all packets of its tile.
+// Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX
+// pixels. Writes premultiplied RGBA, rows from the top, and each packet's numbers of samples
+// (SAMPLE_COUNTS). A work-item of two eyes leaves the second one's numbers behind those of all
+// packets of its tile.
 __kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
                      __global float4 *picture, __global uint *sample_counts, const uint first_tile,
                      __global const uchar *cells RAY_PARAMETERS STRIDE_PARAMETER,
@@ -198,7 +199,8 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint turn = get_global_id(0) / packets_per_tile + first_tile;
     const uint tile = EYES == EYES_BOTH ? turn / 2 : turn;
     const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
-    // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that high.
+    // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that
+    // high.
     const uint band = packet / (packets_per_row * GROUP_ROWS),
                place = packet % (packets_per_row * GROUP_ROWS);
     const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;

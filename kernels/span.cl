@@ -50,27 +50,28 @@
 #define MODELS 0 // what else than absorption, gathered front to back, occurs: MODELS_*
 #endif
 
-// With room for one part only, the compiler must see that there is only one, or it keeps the cursor in
-// memory instead of registers.
+// With room for one part only, the compiler must see that there is only one, or it keeps the cursor
+// in memory instead of registers.
 #define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
 #define COUNTED(count) (CAPACITY == 1 ? 1 : (count))
 
 // 1: parts join the samples of a packet, and leave them (active.cl).
 #define JOINS (CAPACITY > 1 && MIXING != MIXING_ORDERED)
 
-// 1: a cursor looks for its first visible sample only when a ray comes to its part, which behind an opaque one it never
-// does. Views and probes show every part that has something to be seen.
+// 1: a cursor looks for its first visible sample only when a ray comes to its part, which behind an
+// opaque one it never does. Views and probes show every part that has something to be seen.
 #define LATE_CURSORS (JOINS && !DEBUG && !PROBE)
 
-// 1: and only then is it asked whether rays cross the part. Back to front the first part is behind all others, and
-// projections find their places part by part.
+// 1: and only then is it asked whether rays cross the part. Back to front the first part is behind
+// all others, and projections find their places part by part.
 #define LATE_PARTS (LATE_CURSORS && !(MODELS & (MODELS_BACKWARD | MODELS_PROJECTION | MODELS_EMISSION)))
 
 #if JOINS
 #include "ahead.cl"
 #endif
 
-// The parts that some lane of the packet crosses, with their cursors; with LATE_PARTS those that it has come to.
+// The parts that some lane of the packet crosses, with their cursors; with LATE_PARTS those that it
+// has come to.
 struct crossing {
     struct cursor cursors[CAPACITY];
     int parts[CAPACITY];
@@ -107,7 +108,8 @@ struct crossing {
     integer mirror; // what the numbers of a sample front to back and back to front add up to
 #endif
 #if MIXING == MIXING_ORDERED
-    // Where samples 0 of each lie and how far apart they are, in steps of the world from its sample 0.
+    // Where samples 0 of each lie and how far apart they are, in steps of the world from its sample
+    // 0.
     real starts[CAPACITY];
     float strides[CAPACITY];
 #endif
@@ -147,7 +149,8 @@ INLINE void cursor_mirror(struct cursor *cursor, integer mirror) {
 #define HAS_SAMPLES(crossing) ((crossing)->count > 0)
 #endif
 
-// Takes the cursor of a part on from sample i, in which none of the lanes `present` there has shown anything.
+// Takes the cursor of a part on from sample i, in which none of the lanes `present` there has shown
+// anything.
 INLINE void pass_over(__constant struct part *part, __global const uchar *cells,
                       struct cursor *cursor, integer i, mask present) {
 #if MIXING == MIXING_ORDERED
