@@ -1,11 +1,14 @@
-// distances.cl - from the empty cells of a part to each one's distance from something that may be visible.
+// distances.cl - from the empty cells of a part to each one's distance from something that may be
+// visible.
 //
-// The Chebyshev distance separates: D(x) = min over k of max(|k|, D(x + k)), one axis after the other. Along x, where there
-// is nothing but 0 and CELL_DISTANCE_MAX before, a row is swept to and fro. Along y and z, 16 cells that lie beside each other
-// look further and further away, one cell in both directions at a time, until none of them can come nearer.
+// The Chebyshev distance separates: D(x) = min over k of max(|k|, D(x + k)), one axis after the
+// other. Along x, where there is nothing but 0 and CELL_DISTANCE_MAX before, a row is swept to and
+// fro. Along y and z, 16 cells that lie beside each other look further and further away, one cell
+// in both directions at a time, until none of them can come nearer.
 //
-// The last 16 cells of a row may have some in common with those before. Of a row with fewer, what is loaded behind its end, in
-// the buffer's slack (CELL_SLACK) at the last, counts for nothing. Included by occupancy.cl.
+// The last 16 cells of a row may have some in common with those before. Of a row with fewer, what
+// is loaded behind its end, in the buffer's slack (CELL_SLACK) at the last, counts for nothing.
+// Included by occupancy.cl.
 #ifndef DISTANCES_CL
 #define DISTANCES_CL
 
@@ -28,7 +31,8 @@ static void store_cells(uchar16 cells, __global uchar *out, int width) {
         out[n] = each[n];
 }
 
-// Cells that learn from those before them: by steps of 1, 2, 4 and 8, and then from `carry`, the one before all.
+// Cells that learn from those before them: by steps of 1, 2, 4 and 8, and then from `carry`, the
+// one before all.
 static uchar16 sweep_up(uchar16 v, uchar carry) {
     const uchar far = CELL_DISTANCE_MAX;
     const uchar8 beyond = (uchar8)(far);
@@ -44,13 +48,15 @@ static void spread_along(__global const uchar *in, __global uchar *out, int widt
     const int last = max(width - 16, 0);
     for (int x = 0; x < width; x += 16) {
         const int at = min(x, last);
-        store_cells(sweep_up(vload16(0, in + at), at > 0 ? out[at - 1] : CELL_DISTANCE_MAX), out + at, width);
+        const uchar before = at > 0 ? out[at - 1] : (uchar)(CELL_DISTANCE_MAX);
+        store_cells(sweep_up(vload16(0, in + at), before), out + at, width);
     }
     for (int x = last; x > -16; x -= 16) {
         const int at = max(x, 0);
         uchar16 v = vload16(0, out + at);
         v = select((uchar16)(CELL_DISTANCE_MAX), v, CELL_NUMBERS < (uchar16)(min(width, 16)));
-        v = sweep_up(v.sfedcba9876543210, at < last ? out[at + 16] : CELL_DISTANCE_MAX).sfedcba9876543210;
+        const uchar behind = at < last ? out[at + 16] : (uchar)(CELL_DISTANCE_MAX);
+        v = sweep_up(v.sfedcba9876543210, behind).sfedcba9876543210;
         store_cells(v, out + at, width);
     }
 }
@@ -61,7 +67,8 @@ static bool any_beyond(uchar16 distance, int r) {
     return (words.x | words.y) != 0;
 }
 
-// Spreads distances to row i along y or z, from rows that are `stride` cells apart, with so many before it and after it.
+// Spreads distances to row i along y or z, from rows that are `stride` cells apart, with so many
+// before it and after it.
 static void spread_across(__global const uchar *in, __global uchar *out, int width, int stride,
                           int rows_before, int rows_after) {
     const int last = max(width - 16, 0);

@@ -1,14 +1,14 @@
 // nodes.cl - from the empty cells of a part to those of an octree's nodes.
 //
-// The passes go up the levels of the octree, each over the nodes of one level, and a last one brings
-// down to every cell the largest empty node around it: a cell holds 0 where something may be visible,
-// else one more than that node's level.
-// Included by occupancy.cl.
+// The passes go up the levels of the octree, each over the nodes of one level, and a last one
+// brings down to every cell the largest empty node around it: a cell holds 0 where something may be
+// visible, else one more than that node's level. Included by occupancy.cl.
 #ifndef NODES_CL
 #define NODES_CL
 
-// Work-item i joins what the eight children of each node found, along the i-th row of a level's nodes. Nothing else writes to
-// a node's first cell, and only this reads it. What lies outside the part counts as empty.
+// Work-item i joins what the eight children of each node found, along the i-th row of a level's
+// nodes. Nothing else writes to a node's first cell, and only this reads it. What lies outside the
+// part counts as empty.
 static void merge(__constant struct part *part, __global uchar *cells, struct cell_dims dims, int i,
                   int level) {
     const int size = 1 << level, half_size = size >> 1, rows = (dims.y + size - 1) >> level;
@@ -32,7 +32,8 @@ static void merge(__constant struct part *part, __global uchar *cells, struct ce
     }
 }
 
-// Along the i-th row, one more than the level of the largest empty node around each cell, whose first cells know.
+// Along the i-th row, one more than the level of the largest empty node around each cell, whose
+// first cells know.
 static void name_nodes(__constant struct part *part, __global const uchar *cells, __global uchar *out,
                        struct cell_dims dims, int i) {
     const int y = i % dims.y, z = i / dims.y;

@@ -1,7 +1,7 @@
 // occupancy.cl - from a transfer function to the cells of a part in which something may be visible.
 //
-// The first pass compares each cell's range of values with the table: the first visible entry from each
-// one on answers with one look-up whether a range holds any. What the passes after it make of
+// The first pass compares each cell's range of values with the table: the first visible entry from
+// each one on answers with one look-up whether a range holds any. What the passes after it make of
 // that depends on the way to skip: distances.cl, nodes.cl, bricks.cl or bins.cl.
 //
 // Included by span.cl, because a program of their own would cost another half second of a cold
@@ -18,10 +18,10 @@ struct cell_dims {
     int x, y, z;
 };
 
-// The range of the values that samples in cells up to `reach` away from cell i may have. A cubic filter reads a voxel more on
-// each side, so its cells have a share in their neighbours; and Catmull & Rom's weights, whose
-// absolute values add up to at most 5/4 along an axis, lead out of the range of the voxels by at
-// most ((5/4)^3 - 1) / 2 of it on either side.
+// The range of the values that samples in cells up to `reach` away from cell i may have. A cubic
+// filter reads a voxel more on each side, so its cells have a share in their neighbours; and
+// Catmull & Rom's weights, whose absolute values add up to at most 5/4 along an axis, lead out of
+// the range of the voxels by at most ((5/4)^3 - 1) / 2 of it on either side.
 static float2 reachable(__constant struct part *part, __global const float2 *ranges,
                         struct cell_dims dims, int i, int reach) {
     reach += part->filter & FILTERS_CUBIC ? 1 : 0;
@@ -55,8 +55,8 @@ static mask has_surface(__constant struct part *part, real low, real high) {
 
 #define LOAD_VISIBLE(at) next[at]
 
-// The lanes in whose range of values something may be visible. An extremum is moved by all values that it does not outdo,
-// and a mean by all.
+// The lanes in whose range of values something may be visible. An extremum is moved by all values
+// that it does not outdo, and a mean by all.
 static mask occupied(__constant struct part *part, real low, real high, __global const uint *next,
                      bool linear) {
     // A cell without any value has its ends the wrong way round.
@@ -101,7 +101,8 @@ static mask occupied(__constant struct part *part, real low, real high, __global
 typedef LANES_JOIN(uchar, LANES) loose_bytes __attribute__((aligned(1)));
 #endif
 
-// The ranges of values of LANES cells from cell `at` on, and those of the last one again behind a part's `count`.
+// The ranges of values of LANES cells from cell `at` on, and those of the last one again behind a
+// part's `count`.
 INLINE void load_ranges(real *low, real *high, __global const float2 *ranges, int at, int count) {
 #if LANES > 1
     if (at + LANES <= count) {
@@ -134,7 +135,8 @@ static void load_reachable(real *low, real *high, __constant struct part *part,
 }
 #endif
 
-// Leaves 0 in those of LANES cells from cell `at` on, of a part's `count`, in which something may be visible, else `empty`.
+// Leaves 0 in those of LANES cells from cell `at` on, of a part's `count`, in which something may
+// be visible, else `empty`.
 static void find_cells(__constant struct world *world, __constant struct part *part,
                        __global const float2 *values, __global const uint *next,
                        __global uchar *out, int at, int count, bool linear, uint empty) {
@@ -182,7 +184,8 @@ static void find_cells(__constant struct world *world, __constant struct part *p
 
 // One pass over the `count` cells of a part, from `in` to `out`, in which empty cells hold `empty`
 // at first. `linear` tells that the kernel interpolates between table entries. One kernel for all
-// passes that this way to skip needs, because each one more costs a cold start an eighth of a second.
+// passes that this way to skip needs, because each one more costs a cold start an eighth of a
+// second.
 __kernel void occupancy(__constant struct world *world, __global const float2 *ranges,
                         __global const uint *visible, __global const uchar *in, __global uchar *out,
                         const uint part_index, const uint count, const uint linear, const uint pass,
