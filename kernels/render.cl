@@ -206,7 +206,6 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint packet = get_global_id(0) % packets_per_tile;
     const uint turn = get_global_id(0) / packets_per_tile + first_tile;
     const uint tile = EYES == EYES_BOTH ? turn / 2 : turn;
-    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
     // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that
     // high.
     const uint band = packet / (packets_per_row * GROUP_ROWS),
@@ -232,6 +231,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     }
     store_merged(world, picture, left, top, &first, &light);
 #else
+    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
     const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
         return;
