@@ -48,6 +48,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
     struct active active;
     mask alive;
     integer i = begin_active(&active, crossing, &alive);
+#if MIXING != MIXING_ORDERED
+    integer last = active.last;
+#endif
+#if JOINS
+    integer until = active.until;
+#endif
 
 #if MODELS
     struct gathered gathered;
@@ -65,8 +71,10 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         alive &= MASK(place < NOWHERE);
         active.count = crossing->count;
 #elif CAPACITY > 1
-        if (any_lane(alive & MASK(REACH(i) >= active.until))) {
+        if (any_lane(alive & MASK(REACH(i) >= until))) {
             join_active(world, cells, &active, crossing, i, alive);
+            until = active.until;
+            last = active.last;
 #if MODELS
             gathered_meet(&gathered, crossing);
 #endif
@@ -174,7 +182,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         } else {
             i = CHOOSE(i, leap(&active, crossing, i), alive);
         }
-        alive &= MASK(i < active.last);
+        alive &= MASK(i < last);
 #endif
     }
 #if MODELS & MODELS_PROJECTION
@@ -200,7 +208,6 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint packet = get_global_id(0) % packets_per_tile;
     const uint turn = get_global_id(0) / packets_per_tile + first_tile;
     const uint tile = EYES == EYES_BOTH ? turn / 2 : turn;
-    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
     // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that
     // high.
     const uint band = packet / (packets_per_row * GROUP_ROWS),
@@ -226,6 +233,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     }
     store_merged(world, picture, left, top, &first, &light);
 #else
+    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
     const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
         return;
