@@ -7,37 +7,80 @@
 #ifndef ACTIVE_CL
 #define ACTIVE_CL
 
-// It lasts until some ray reaches the sample `until`, where the next part begins.
+// It lasts until some ray reaches the sample `until`, where the next part may begin.
 struct active {
-    int list[CAPACITY]; // indices into the crossing, ascending
+    int list[CAPACITY]; // indices into the crossing, in the order of its parts
     int count;
-    int joined; // parts that have been in the list
     integer until;
+    integer last; // behind the last sample of all parts
 };
 
-#if CAPACITY > 1
-// Adds the parts whose first ray is at or before its sample i.
-INLINE void join_active(__constant struct world *world, __global const uchar *cells,
-                        struct active *active, struct crossing *crossing, integer i, mask alive) {
-    active->until = (integer)(SAMPLE_NEVER);
-    for (; active->joined < crossing->count; active->joined++) {
-        active->until = (integer)(crossing->entries[active->joined]);
-        if (!any_lane(alive & MASK(i >= active->until)))
-            return;
-        active->until = (integer)(SAMPLE_NEVER);
-        const int c = crossing->order[active->joined];
-#if LATE_CURSORS
-        struct cursor *cursor = &crossing->cursors[c];
-        cursor->next = cursor_leap(&world->parts[crossing->parts[c]], cells, cursor, cursor->first,
-                                   (mask)(-1));
-        if (!any_lane(MASK(cursor->next < cursor->end)))
-            continue;
-#endif
-        int place = active->count++;
-        for (; place > 0 && active->list[place - 1] > c; place--)
-            active->list[place] = active->list[place - 1];
-        active->list[place] = c;
+// The first sample of each ray, where some part begins or may begin. *alive are the rays that have
+// one.
+INLINE integer begin_active(struct active *active, const struct crossing *crossing, mask *alive) {
+    active->count = 0;
+#if LATE_PARTS
+    active->until = (integer)(0);
+    active->last = (integer)(SAMPLE_NEVER);
+    *alive = crossing->runs;
+    return (integer)(0);
+#else
+    integer first = (integer)(SAMPLE_NEVER);
+    active->last = (integer)(0);
+    for (int c = 0; c < COUNTED(crossing->count); c++) {
+        first = min(first, crossing->cursors[c].next);
+        active->last = max(active->last, crossing->cursors[c].end);
     }
+    active->until = CAPACITY == 1 ? active->last : first;
+    *alive = MASK(first < active->last);
+    return first;
+#endif
+}
+
+#if JOINS
+// Lets cursor c of the crossing take part.
+INLINE void join_part(__constant struct world *world, __global const uchar *cells,
+                      struct active *active, struct crossing *crossing, int c) {
+    const int p = crossing->parts[c];
+#if LATE_CURSORS
+    struct cursor *cursor = &crossing->cursors[c];
+    cursor->next = cursor_leap(&world->parts[p], cells, cursor, cursor->first, (mask)(-1));
+    if (!any_lane(MASK(cursor->next < cursor->end)))
+        return;
+#endif
+    int place = active->count++;
+    for (; place > 0 && crossing->parts[active->list[place - 1]] > p; place--)
+        active->list[place] = active->list[place - 1];
+    active->list[place] = c;
+}
+
+// The last sample of the longest run (stride.cl) that sample i may be in: a run asks all parts
+// there.
+#define REACH(i) (ADAPTIVE ? (i) | 3 : (i))
+
+// Adds the parts that some ray has come to at its sample i. It is rarely called, and inside the ray
+// loop it would take registers from samples (4 to 9 % of a frame).
+static __attribute__((noinline)) void join_active(__constant struct world *world, __global const uchar *cells,
+                        struct active *active, struct crossing *crossing, integer i, mask alive) {
+    struct ahead *ahead = &crossing->ahead;
+    active->until = (integer)(SAMPLE_NEVER);
+    while (ahead->count > 0) {
+        const integer entry = (integer)(ahead->entries[ahead->count - 1]);
+        if (!any_lane(alive & MASK(REACH(i) >= entry))) {
+            active->until = entry;
+            return;
+        }
+        const int link = ahead->links[--ahead->count];
+#if LATE_PARTS
+        if (link >= 0)
+            enter_node(world, cells, crossing, link, alive);
+        else
+#endif
+            join_part(world, cells, active, crossing, -1 - link);
+    }
+#if LATE_PARTS
+    active->last = crossing->end;
+#endif
 }
 #endif
 

@@ -19,8 +19,9 @@ INLINE integer crossed_parts(const struct crossing *crossing) {
 // The spans of each ray in which a constant set of such parts is active, the empty set left out.
 INLINE integer crossed_spans(const struct crossing *crossing) {
     integer spans = (integer)(0), i = (integer)(-1);
-    mask more = (mask)(-1);
-    while (any_lane(more)) {
+    // The mask that ends the loop is made within it: LLVM 18 does not get done with one that goes
+    // around, starting as a constant, and PoCL 6 has it stop the program then.
+    while (true) {
         // On to the next sample at which some part begins or ends.
         integer change = (integer)(SAMPLE_NEVER);
         for (int c = 0; c < crossing->count; c++) {
@@ -30,7 +31,9 @@ INLINE integer crossed_spans(const struct crossing *crossing) {
             change = CHOOSE(change, min(change, cursor->end), runs & MASK(cursor->end > i));
         }
         i = change;
-        more = MASK(i < (integer)(SAMPLE_NEVER));
+        const mask more = MASK(i < (integer)(SAMPLE_NEVER));
+        if (!any_lane(more))
+            return spans;
         mask active = (mask)(0);
         for (int c = 0; c < crossing->count; c++) {
             const struct cursor *cursor = &crossing->cursors[c];
@@ -40,7 +43,6 @@ INLINE integer crossed_spans(const struct crossing *crossing) {
         // subtracted.
         spans += CHOOSE((integer)(0), (integer)(1), active & more);
     }
-    return spans;
 }
 
 #if SKIP == SKIP_BVH || SKIP == SKIP_BLOCKS

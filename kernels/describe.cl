@@ -1,4 +1,5 @@
-// describe.cl - the device's own idea of the structs it shares with the host, for the test that compares the two.
+// describe.cl - the device's own idea of the structs it shares with the host, for the test that
+// compares the two.
 #include "shared/recipe.h"
 #include "shared/world.h"
 
@@ -131,7 +132,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, merge_linear);
     *out++ = OFFSET(struct world, merge);
     *out++ = OFFSET(struct world, merged_background);
-    *out++ = OFFSET(struct world, balls);
+    *out++ = OFFSET(struct world, nodes);
     *out++ = OFFSET(struct world, shadow_step_mm);
     *out++ = OFFSET(struct world, shadow_length_mm);
     *out++ = OFFSET(struct world, shadow_strength);

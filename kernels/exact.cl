@@ -1,11 +1,14 @@
-// exact.cl - the other integrator: light along a ray through voxels of constant colour, with the exact length in each.
+// exact.cl - the other integrator: light along a ray through voxels of constant colour, with the
+// exact length in each.
 //
-// For model `emission` (Max 1995) the integral is a sum over the voxels that the ray crosses, so there is no step and no
-// sampling error. Voxels are found one after the other by their faces (Amanatides & Woo 1987); the distance of each face is
-// computed from its number, not added up, so that rounding does not grow with the way. Parts only add, in any order.
+// For model `emission` (Max 1995) the integral is a sum over the voxels that the ray crosses, so
+// there is no step and no sampling error. Voxels are found one after the other by their faces
+// (Amanatides & Woo 1987); the distance of each face is computed from its number, not added up, so
+// that rounding does not grow with the way. Parts only add, in any order.
 //
-// Where a part is clipped or masked the lengths are those that are left, as exactly: the ray is cut at the faces of the
-// mask's voxels and of cut-away boxes, too. Light only adds up, so an inverted mask takes what it selects from the whole.
+// Where a part is clipped or masked the lengths are those that are left, as exactly: the ray is cut
+// at the faces of the mask's voxels and of cut-away boxes, too. Light only adds up, so an inverted
+// mask takes what it selects from the whole.
 #ifndef EXACT_CL
 #define EXACT_CL
 
@@ -13,7 +16,8 @@
 #include "pixel.cl"
 #include "span.cl"
 
-// One axis of the way through a part's voxels, in memory coordinates, where voxel n reaches from n - 1/2 to n + 1/2.
+// One axis of the way through a part's voxels, in memory coordinates, where voxel n reaches from
+// n - 1/2 to n + 1/2.
 struct axis {
     real origin, inverse; // of the ray, and of its direction
     real side;            // of a voxel, on which the ray leaves it: -1/2 or 1/2
@@ -70,7 +74,8 @@ INLINE void voxel_place_step(struct voxel_place *place, real t, mask runs) {
 }
 
 #if CLIP
-// Where behind t the ray next enters or leaves a cut-away box. Lanes that are in one until then are cleared in *kept.
+// Where behind t the ray next enters or leaves a cut-away box. Lanes that are in one until then are
+// cleared in *kept.
 INLINE real clip_exit(__constant struct world *world, __constant struct part *part,
                       const struct ray *ray, real t, mask *kept) {
     __constant const float4 *cut =
@@ -92,7 +97,8 @@ INLINE real clip_exit(__constant struct world *world, __constant struct part *pa
 #endif
 
 #if MASKED
-// Which of a part's light is counted: what part m of its mask selects, or everything where there is no m.
+// Which of a part's light is counted: what part m of its mask selects, or everything where there is
+// no m.
 #define MASK_NONE (-1)
 
 // The rays in the memory coordinates of part m of a mask, whose box narrows their span.
@@ -125,8 +131,8 @@ INLINE mask mask_selected(__constant struct world *world, __constant struct part
 }
 #endif
 
-// Adds the light of one part: of a masked one what part `m` of its mask selects, which is taken away where the mask is
-// inverted.
+// Adds the light of one part: of a masked one what part `m` of its mask selects, which is taken
+// away where the mask is inverted.
 INLINE void follow_voxels(__constant struct world *world, TABLE_SPACE const uint *table,
                           MEMORY_PARAMETERS, __constant struct part *part, int m,
                           const struct ray *ray, struct light *light, integer *samples) {
@@ -193,12 +199,14 @@ INLINE void follow_voxels(__constant struct world *world, TABLE_SPACE const uint
     }
 }
 
-// Follows the rays through every part and returns the light they gather; it hides nothing. Adds the voxels to *samples.
+// Follows the rays through every part and returns the light they gather; it hides nothing. Adds the
+// voxels to *samples.
 INLINE struct light follow_exactly(__constant struct world *world, TABLE_SPACE const uint *table,
                                    MEMORY_PARAMETERS, const struct ray *ray, integer *samples) {
     const real zero = (real)(0.0f);
     struct light light = {zero, zero, zero, zero};
-    for (int p = 0; p < world->part_count; p++) {
+    for (ulong met = PARTS_MET(world, ray, (real)(FLT_MAX)); met != 0; met &= met - 1) {
+        const int p = FIRST_PART(met);
         __constant struct part *part = &world->parts[p];
 #if MASKED
         const bool whole = part->mask_count == 0 || part->mask_inverted;

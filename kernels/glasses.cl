@@ -52,8 +52,8 @@ INLINE tint srgb_decode(tint value) {
     return CHOOSE(curve, value * (1.0f / 12.92f), MASK(value <= 0.04045f));
 }
 
-// Light is m 2^e, with m in 1..2. As e is a small whole number, 2^(e / 2.4) needs nothing of exp2
-// but its polynomial (that of SLEEF).
+// Light is m 2^e, with m in 1..2. As e is a whole number and never above 0, 2^(e / 2.4) needs
+// nothing of exp2 but its polynomial (SLEEF's) for what is left of the exponent, about -0.5..0.5.
 INLINE tint srgb_encode(tint light) {
     light = AT_MOST(AT_LEAST(light, (tint)(0.0f)), (tint)(1.0f));
     const tint_integer bits = LANES_JOIN(lanes_as_int, TINT_LANES)(light);
@@ -65,16 +65,17 @@ INLINE tint srgb_encode(tint light) {
     curve = curve * m - 0.71334803f;
     curve = curve * m + 1.1156628f;
     curve = curve * m + 0.371223f;
-    const tint power = e * (1.0f / 2.4f), whole = rint(power), rest = power - whole;
+    const tint power = e * (1.0f / 2.4f);
+    const tint_integer whole = LANES_JOIN(lanes_convert_int, TINT_LANES)(power - 0.49f);
+    const tint rest = power - LANES_JOIN(lanes_convert_float, TINT_LANES)(whole);
     tint scale = 0.00015359209f * rest + 0.0013392627f;
     scale = scale * rest + 0.0096183848f;
     scale = scale * rest + 0.055503473f;
     scale = scale * rest + 0.24022645f;
     scale = scale * rest + 0.69314718f;
     scale = scale * rest + 1.0f;
-    const tint_integer shift = LANES_JOIN(lanes_convert_int, TINT_LANES)(whole) << 23;
-    scale =
-        LANES_JOIN(lanes_as_float, TINT_LANES)(LANES_JOIN(lanes_as_int, TINT_LANES)(scale) + shift);
+    const tint_integer raised = LANES_JOIN(lanes_as_int, TINT_LANES)(scale) + (whole << 23);
+    scale = LANES_JOIN(lanes_as_float, TINT_LANES)(raised);
     curve = scale * curve - 0.055f;
     return CHOOSE(curve, 12.92f * light, MASK(light <= 0.0031308f));
 }

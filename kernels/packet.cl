@@ -18,7 +18,7 @@ INLINE struct light packet_light(__constant struct world *world, TABLE_SPACE con
     light = follow_exactly(world, table, MEMORY_ARGUMENTS, ray, &samples);
     crossing.possible = samples;
 #else
-    if (crossing.count > 0)
+    if (HAS_SAMPLES(&crossing))
         light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &samples);
 #endif
 
@@ -27,6 +27,7 @@ INLINE struct light packet_light(__constant struct world *world, TABLE_SPACE con
     counts[SAMPLES_POSSIBLE] += (uint)sum_lanes(crossing.possible);
     counts[SAMPLES_BEHIND] += (uint)sum_lanes(crossing.behind);
     counts[SAMPLES_SPARED] += SPARED(crossing);
+    counts[PARTS_ENTERED] += (uint)crossing.count;
 #if DEBUG
     light.r = debug_number(world, cells, &crossing, samples);
 #endif

@@ -37,11 +37,9 @@ struct light {
 // (left, top).
 INLINE struct ray eye_rays(__constant struct world *world, int eye, int left, int top, real x, real y) {
 #if EYES == EYES_WOVEN
-    const struct ray first = camera_ray(world, &world->camera, x, y);
-    const struct ray second = camera_ray(world, &world->second, x, y);
     const integer sum = (world->left + left + LANE_X) * world->weave_x +
                         (world->top + top + LANE_Y) * world->weave_y;
-    return choose_rays(&first, &second, MASK((sum & 1) != 0));
+    return camera_ray(world, MASK((sum & 1) != 0), x, y);
 #elif EYES == EYES_BOTH || EYES == EYES_MERGED
     return camera_ray(world, eye ? &world->second : &world->camera, x, y);
 #else

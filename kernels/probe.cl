@@ -35,7 +35,7 @@ __kernel void probe(__constant struct world *world, TABLE_SPACE const uint *tabl
     }
     struct light light = {0, 0, 0, 0};
     int taken = 0;
-    if (crossing.count > 0)
+    if (HAS_SAMPLES(&crossing))
         light = follow_rays(world, table, cells, MEMORY_ARGUMENTS, &crossing, &taken);
     probe->sample_count = crossing.logged;
     const float4 behind = world->background;

@@ -45,39 +45,34 @@ struct span {
     real near, far;
 };
 
-// The rays of a camera through the places x and y of the whole picture: pixels, from its left and
-// top edge. Whether they run, and their phases, are left to the caller.
-INLINE struct ray camera_ray(__constant struct world *world, __constant struct camera *camera, real x,
-                             real y) {
+#if EYES == EYES_WOVEN
+// The second camera where -1, else the first one. Each lane's numbers are chosen before its ray is
+// worked out: two rays at a time are arithmetic so dense that the clock slows down (glasses.cl).
+typedef mask viewpoint;
+#define FROM(member) CHOOSE((real)(world->camera.member), (real)(world->second.member), from)
+#else
+typedef __constant struct camera *viewpoint;
+#define FROM(member) from->member
+#endif
+
+// The rays from a viewpoint through the places x and y of the whole picture: pixels, from its left
+// and top edge. Whether they run, and their phases, are left to the caller.
+INLINE struct ray camera_ray(__constant struct world *world, viewpoint from, real x, real y) {
     const real u = x * (2.0f / (float)world->whole_width) - 1.0f;
     const real v = 1.0f - y * (2.0f / (float)world->whole_height);
     struct ray ray;
-    ray.ox = camera->eye.x + u * camera->eye_right.x + v * camera->eye_up.x;
-    ray.oy = camera->eye.y + u * camera->eye_right.y + v * camera->eye_up.y;
-    ray.oz = camera->eye.z + u * camera->eye_right.z + v * camera->eye_up.z;
-    ray.dx = camera->forward.x + u * camera->right.x + v * camera->up.x;
-    ray.dy = camera->forward.y + u * camera->right.y + v * camera->up.y;
-    ray.dz = camera->forward.z + u * camera->right.z + v * camera->up.z;
+    ray.ox = FROM(eye.x) + u * FROM(eye_right.x) + v * FROM(eye_up.x);
+    ray.oy = FROM(eye.y) + u * FROM(eye_right.y) + v * FROM(eye_up.y);
+    ray.oz = FROM(eye.z) + u * FROM(eye_right.z) + v * FROM(eye_up.z);
+    ray.dx = FROM(forward.x) + u * FROM(right.x) + v * FROM(up.x);
+    ray.dy = FROM(forward.y) + u * FROM(right.y) + v * FROM(up.y);
+    ray.dz = FROM(forward.z) + u * FROM(right.z) + v * FROM(up.z);
     const real length = 1.0f / sqrt(ray.dx * ray.dx + ray.dy * ray.dy + ray.dz * ray.dz);
     ray.dx *= length;
     ray.dy *= length;
     ray.dz *= length;
     return ray;
 }
-
-#if EYES == EYES_WOVEN
-// The rays of one camera, and where `second`, those of another.
-INLINE struct ray choose_rays(const struct ray *first, const struct ray *other, mask second) {
-    struct ray ray = *first;
-    ray.ox = CHOOSE(first->ox, other->ox, second);
-    ray.oy = CHOOSE(first->oy, other->oy, second);
-    ray.oz = CHOOSE(first->oz, other->oz, second);
-    ray.dx = CHOOSE(first->dx, other->dx, second);
-    ray.dy = CHOOSE(first->dy, other->dy, second);
-    ray.dz = CHOOSE(first->dz, other->dz, second);
-    return ray;
-}
-#endif
 
 // The same ray in the space that an affine matrix of three rows leads to; lengths along it stay
 // world millimetres.

@@ -1,9 +1,9 @@
 // render.cl - the only sampled ray loop.
 //
-// A work-item follows one packet of rays through all parts that they cross. Sample i of a ray lies at
-// t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. The cost of a
-// sample follows the parts that the packet is in (active.cl). Each part has a cursor; after a sample in which
-// nothing was visible the ray goes on to the least of the cursors' answers.
+// A work-item follows one packet of rays through all parts that they cross. Sample i of a ray lies
+// at t_near + (i + phase) * step whatever is skipped, so skipping never changes the picture. The
+// cost of a sample follows the parts that the packet is in (active.cl). Each part has a cursor;
+// after a sample in which nothing was visible the ray goes on to the least of the cursors' answers.
 #include "classify.cl"
 #include "depth.cl"
 #include "mix.cl"
@@ -11,6 +11,7 @@
 #include "order.cl"
 #include "pixel.cl"
 #include "shade.cl"
+#include "sight.cl"
 #include "span.cl"
 #include "style.cl"
 #if ADAPTIVE
@@ -44,16 +45,15 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
                                 struct crossing *crossing, integer *samples) {
     const real zero = (real)(0.0f);
     struct light light = {zero, zero, zero, zero};
-    // The first sample of each ray, and the one behind its last.
-    integer i = (integer)(SAMPLE_NEVER), last = (integer)(0);
-    for (int c = 0; c < COUNTED(crossing->count); c++) {
-        i = min(i, crossing->cursors[c].next);
-        last = max(last, crossing->cursors[c].end);
-    }
-    mask alive = MASK(i < last);
     struct active active;
-    active.until = CAPACITY == 1 ? last : i;
-    active.count = active.joined = 0;
+    mask alive;
+    integer i = begin_active(&active, crossing, &alive);
+#if MIXING != MIXING_ORDERED
+    integer last = active.last;
+#endif
+#if JOINS
+    integer until = active.until;
+#endif
 
 #if MODELS
     struct gathered gathered;
@@ -64,14 +64,21 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
 
     struct runs runs = runs_begin();
+    ulong expected = 0; // cursors whose last sample was seen, one bit each
     while (any_lane(alive)) {
 #if MIXING == MIXING_ORDERED
         const real place = order_nearest(crossing);
         alive &= MASK(place < NOWHERE);
         active.count = crossing->count;
 #elif CAPACITY > 1
-        if (any_lane(alive & MASK(i >= active.until)))
+        if (any_lane(alive & MASK(REACH(i) >= until))) {
             join_active(world, cells, &active, crossing, i, alive);
+            until = active.until;
+            last = active.last;
+#if MODELS
+            gathered_meet(&gathered, crossing);
+#endif
+        }
 #endif
         const integer length = find_run(world, crossing, &runs, &i, alive);
         bool seen = false;
@@ -116,47 +123,47 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
             *samples -= present;
             COUNT_SPARED(crossing, length, present);
-            const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
+            struct sight sight;
+            look(table, MEMORY_ARGUMENTS, part, x, y, z, &present, expected >> c & 1, &sight);
 #if MODELS
             if (part->model != MODEL_ABSORPTION) {
                 const struct spot spot = {part, cursor, c, i, present};
                 seen |= any_lane(gather(world, table, cells, MEMORY_ARGUMENTS, &gathered, crossing,
-                                        &light, &mixture, &sample, spot));
+                                        &light, &mixture, &sight.sample, spot));
                 continue;
             }
 #endif
-            const struct entry entry = find_entry(part, sample.raw, &present);
-            real strength = entry_strength(table, &entry);
-            const mask visible = present & MASK(strength > 0.0f);
 #if PROBE
-            log_sample(crossing, c, i, length, x, y, z, sample.raw, visible ? strength : 0, layer->a);
+            log_sample(crossing, c, i, length, x, y, z, sight.sample.raw,
+                       sight.visible ? sight.strength : 0, layer->a);
 #endif
-            if (!any_lane(visible)) {
+            expected &= ~(1UL << c);
+            if (!any_lane(sight.visible)) {
                 pass_over(part, cells, cursor, RUN_LAST(i, length), present);
                 continue;
             }
             seen = true;
+            expected |= 1UL << c;
 
             real r, g, b;
-            entry_colour(table, &entry, &r, &g, &b);
+            entry_colour(table, &sight.entry, &r, &g, &b);
 #if VOXELS & VOXELS_RGBA
             if (IS_CLASS(part, VOXELS_RGBA)) {
-                r = sample.r;
-                g = sample.g;
-                b = sample.b;
+                r = sight.sample.r;
+                g = sight.sample.g;
+                b = sight.sample.b;
             }
 #endif
 #if SHADING
             if (HAS_NORMALS(part))
                 style(FRAME_ARGUMENTS, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
-                      SAMPLE_NUMBER(crossing, c, t), x, y, z, CHOOSE(zero, sample.raw, visible),
-                      visible, &strength, &r, &g, &b);
+                      SAMPLE_NUMBER(crossing, c, t), x, y, z, &sight, &r, &g, &b);
 #endif
 #if PROBE
             log_colour(crossing, r, g, b);
 #endif
             mix_add(&mixture, layer, part, r, g, b,
-                    CHOOSE(zero, RUN_STRENGTH(strength, length), visible));
+                    CHOOSE(zero, RUN_STRENGTH(sight.strength, length), sight.visible));
         }
 
 #if MIXING == MIXING_ORDERED
@@ -188,9 +195,10 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #include "packet.cl"
 #include "glasses.cl"
 
-// Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX pixels. Writes
-// premultiplied RGBA, rows from the top, and each packet's numbers of samples (SAMPLE_COUNTS). A work-item of two eyes
-// leaves the second one's numbers behind those of all packets of its tile.
+// Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX
+// pixels. Writes premultiplied RGBA, rows from the top, and each packet's numbers of samples
+// (SAMPLE_COUNTS). A work-item of two eyes leaves the second one's numbers behind those of all
+// packets of its tile.
 __kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
                      __global float4 *picture, __global uint *sample_counts, const uint first_tile,
                      __global const uchar *cells RAY_PARAMETERS STRIDE_PARAMETER,
@@ -200,8 +208,8 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint packet = get_global_id(0) % packets_per_tile;
     const uint turn = get_global_id(0) / packets_per_tile + first_tile;
     const uint tile = EYES == EYES_BOTH ? turn / 2 : turn;
-    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
-    // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that high.
+    // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that
+    // high.
     const uint band = packet / (packets_per_row * GROUP_ROWS),
                place = packet % (packets_per_row * GROUP_ROWS);
     const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;
@@ -225,6 +233,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     }
     store_merged(world, picture, left, top, &first, &light);
 #else
+    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
     const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
         return;

@@ -1,7 +1,9 @@
-// secondary.cl - rays that go on from a sample: to each lamp (shadows) and around its normal (ambient occlusion).
+// secondary.cl - rays that go on from a sample: to each lamp (shadows) and around its normal
+// (ambient occlusion).
 //
-// Both ask how much light comes through all volumes along a line, as they are mixed in the picture. The rays leap over
-// what is empty as those of the picture do, by cursors of their own. See docs/picture.md, "Shadows and ambient occlusion".
+// Both ask how much light comes through all volumes along a line, as they are mixed in the picture.
+// The rays leap over what is empty as those of the picture do, by cursors of their own. See
+// docs/picture.md, "Shadows and ambient occlusion".
 // Included by shade.cl.
 #ifndef SECONDARY_CL
 #define SECONDARY_CL
@@ -30,7 +32,8 @@ struct obstacle {
 #define IS_OBSTACLE(part) true
 #endif
 
-// Places a cursor in a part along a secondary ray, which ends at `end`. Its samples lie in the middles of steps.
+// Places a cursor in a part along a secondary ray, which ends at `end`. Its samples lie in the
+// middles of steps.
 INLINE void begin_obstacle(struct obstacle *obstacle, __constant struct world *world,
                            __constant struct part *part, __global const uchar *cells,
                            const struct ray *ray, real end, float step_mm) {
@@ -102,7 +105,8 @@ INLINE real pair_strength(TABLE_SPACE const uint *table, __constant struct part 
 }
 #endif
 
-// The strength of a part at a place of the ray, given in memory coordinates; 0 where it is not present.
+// The strength of a part at a place of the ray, given in memory coordinates; 0 where it is not
+// present.
 INLINE real obstacle_strength(TABLE_SPACE const uint *table, __constant struct part *part,
                               MEMORY_PARAMETERS, const struct ray *ray, real x, real y, real z,
                               real raw, mask present) {
@@ -143,7 +147,8 @@ INLINE void obstruct(__constant struct world *world, __constant struct part *par
 #endif
 }
 
-// Adds a part's sample i, at t of its cursor, to the mixture. Returns the depth of its surfaces, which are not mixed.
+// Adds a part's sample i, at t of its cursor, to the mixture. Returns the depth of its surfaces,
+// which are not mixed.
 INLINE real meet(__constant struct world *world, TABLE_SPACE const uint *table,
                  __global const uchar *cells, MEMORY_PARAMETERS, struct obstacle *obstacle,
                  __constant struct part *part, const struct ray *ray, integer i, real t,
@@ -168,17 +173,19 @@ INLINE real meet(__constant struct world *world, TABLE_SPACE const uint *table,
     return (real)(0.0f);
 }
 
-// The share of light that comes through along a ray of a sample, up to `end`, in the lanes that ask.
+// The share of light that comes through along a ray of a sample, up to `end`, in the lanes that
+// ask.
 INLINE real light_through(__constant struct world *world, TABLE_SPACE const uint *table,
                           __global const uchar *cells, MEMORY_PARAMETERS, const struct ray *ray,
                           real end, float step_mm, mask asks) {
     struct obstacle obstacles[CAPACITY];
     int parts[CAPACITY], count = 0;
     integer i = (integer)(SAMPLE_NEVER), last = (integer)(0);
-    for (int p = 0; p < COUNTED(world->part_count); p++) {
+    const real far = CHOOSE((real)(-1.0f), end, asks);
+    for (ulong met = PARTS_MET(world, ray, far); met != 0; met &= met - 1) {
+        const int p = FIRST_PART(met);
         struct obstacle *obstacle = &obstacles[CAPACITY == 1 ? 0 : count];
-        begin_obstacle(obstacle, world, &world->parts[p], cells, ray,
-                       CHOOSE((real)(-1.0f), end, asks), step_mm);
+        begin_obstacle(obstacle, world, &world->parts[p], cells, ray, far, step_mm);
         const integer next = obstacle->cursor.next, behind = obstacle->cursor.end;
         if (!any_lane(MASK(next < behind)))
             continue;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "cli/bench.h"
+#include "cli/device_option.h"
 #include "cli/nearest.h"
 #include "cli/options.h"
 #include "cli/report.h"
@@ -45,13 +46,8 @@ enum {
     KEY_LARGEST,
     KEY_SKIP,
     KEY_SHADING,
-    KEY_COMPUTE_UNITS,
     KEY_ONLY,
     KEY_PEER,
-    KEY_DEVICE,
-    KEY_READER,
-    KEY_LANES,
-    KEY_WORK_GROUP,
 };
 
 static const struct argp_option options[] = {
@@ -84,13 +80,6 @@ static const struct argp_option options[] = {
     {"json", KEY_JSON, "FILE", 0, "Write a line of JSON for each case; - for standard output", 0},
     {"markdown", KEY_MARKDOWN, "FILE", 0, "Write the tables to a file, too", 0},
     {"plot", KEY_PLOT, "FILE", 0, "Draw the medians as bars, as SVG", 0},
-    {"device", KEY_DEVICE, "D", 0,
-     "Number, part of the name, or type (gpu, cpu); 'pellucid devices' lists them", 0},
-    {"reader", KEY_READER, "auto|buffer|image", 0, "How kernels read voxels", 0},
-    {"lanes", KEY_LANES, "1|4|8|16", 0, "Rays per work-item", 0},
-    {"work-group", KEY_WORK_GROUP, "N", 0, "Work-items per work-group", 0},
-    {"compute-units", KEY_COMPUTE_UNITS, "N", 0, "Of a device that can be divided, only so many",
-     0},
     {0},
 };
 
@@ -164,26 +153,14 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     case KEY_SHADING:
         chosen->shading = true;
         break;
-    case KEY_COMPUTE_UNITS:
-        good = cli_integer("--compute-units", argument, 1, &chosen->renderer.compute_units);
-        break;
     case KEY_DATA:
         chosen->data = argument;
         break;
     case KEY_PEER:
         good = add_peer(chosen, argument);
         break;
-    case KEY_DEVICE:
-        chosen->renderer.device = argument;
-        break;
-    case KEY_READER:
-        good = cli_reader(argument, &chosen->renderer.reader);
-        break;
-    case KEY_LANES:
-        good = cli_lanes(argument, &chosen->renderer.lanes);
-        break;
-    case KEY_WORK_GROUP:
-        good = cli_integer("--work-group", argument, 1, &chosen->renderer.work_group);
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &chosen->renderer;
         break;
     case ARGP_KEY_ARGS:
         arguments->names = state->argv + state->next;
@@ -348,6 +325,7 @@ int command_bench(int argc, char **argv) {
     static const struct argp argp = {
         .options = options,
         .parser = parse,
+        .children = cli_device_children,
         .args_doc = "[SUITE|SCENE...]",
         .doc = "Measures how fast this device renders: suites of cases (all of them by default), "
                "or scenes and volumes of your own. Cases are measured in turns, so that whatever "

@@ -54,6 +54,6 @@ bool cli_is_scene(const char *path);
 extern const struct argp_child cli_load_children[];
 
 // Keys of long options that have no short form; each command counts from its own base.
-enum { CLI_KEY_COMMAND = 0x100, CLI_KEY_LOAD = 0x200 };
+enum { CLI_KEY_COMMAND = 0x100, CLI_KEY_LOAD = 0x200, CLI_KEY_DEVICE = 0x300 };
 
 #endif

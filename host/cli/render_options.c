@@ -1,17 +1,12 @@
 // render_options.c - the options of `pellucid render`.
 #include "cli/render_options.h"
 
-#include "cli/options.h"
+#include "cli/device_option.h"
 #include "cli/probe.h"
 #include "cli/scene_option.h"
 
 enum {
-    KEY_READER = SCENE_OPTION_END,
-    KEY_LANES,
-    KEY_WORK_GROUP,
-    KEY_COMPUTE_UNITS,
-    KEY_DEVICE,
-    KEY_PIXEL,
+    KEY_PIXEL = SCENE_OPTION_END,
     KEY_JSON,
     KEY_FRAMES,
     KEY_FRAME,
@@ -122,14 +117,6 @@ static const struct argp_option argp_options[] = {
     {"jitter", SCENE_JITTER, NULL, 0, "A random phase for every ray", 0},
     {"debug", SCENE_DEBUG, "samples|spans|volumes|work-group|work-item|time|clusters|nodes", 0,
      "Show a number of each pixel's ray in place of its light, as a heat map", 0},
-    {0, 0, NULL, 0, "The device:", 5},
-    {"device", KEY_DEVICE, "D", 0,
-     "Number, part of the name, or type (gpu, cpu); 'pellucid devices' lists them", 0},
-    {"reader", KEY_READER, "auto|buffer|image", 0, "How kernels read voxels", 0},
-    {"lanes", KEY_LANES, "1|4|8|16", 0, "Rays per work-item", 0},
-    {"work-group", KEY_WORK_GROUP, "N", 0, "Work-items per work-group", 0},
-    {"compute-units", KEY_COMPUTE_UNITS, "N", 0, "Of a device that can be divided, only so many",
-     0},
     {0, 0, NULL, 0, "Everything else:", 6},
     {"set", SCENE_SET, "KEY=VALUE", 0,
      "Set any key of the scene, such as volumes.0.density=0.2; may be repeated", 0},
@@ -163,20 +150,8 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     case KEY_FRAME:
         good = cli_integer("--frame", argument, 0, &options->frame);
         break;
-    case KEY_DEVICE:
-        options->renderer.device = argument;
-        break;
-    case KEY_READER:
-        good = cli_reader(argument, &options->renderer.reader);
-        break;
-    case KEY_LANES:
-        good = cli_lanes(argument, &options->renderer.lanes);
-        break;
-    case KEY_WORK_GROUP:
-        good = cli_integer("--work-group", argument, 1, &options->renderer.work_group);
-        break;
-    case KEY_COMPUTE_UNITS:
-        good = cli_integer("--compute-units", argument, 1, &options->renderer.compute_units);
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &options->renderer;
         break;
     case ARGP_KEY_ARGS:
         options->inputs = state->argv + state->next;
@@ -195,6 +170,7 @@ int render_options_parse(struct render_options *options, int argc, char **argv) 
     static const struct argp argp = {
         .options = argp_options,
         .parser = parse,
+        .children = cli_device_children,
         .args_doc = "SCENE|VOLUME...",
         .doc = "Renders a scene file (.json), or one or more volumes placed by their headers, to a "
                "picture.\v"

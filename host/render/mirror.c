@@ -48,3 +48,16 @@ bool pel_mirror_update(struct pel_mirror *mirror, struct pel_device *device, con
     }
     return true;
 }
+
+bool pel_mirror_update_words(struct pel_mirror *mirror, struct pel_device *device,
+                             const struct pel_memo_words *words, const char *purpose,
+                             bool *changed) {
+    size_t bytes = words->count * sizeof *words->words;
+    if (mirror->buffer && mirror->bytes == bytes && mirror->version == words->version)
+        return true;
+    mirror->version = 0;
+    if (!pel_mirror_update(mirror, device, words->words, bytes, 0, purpose, changed))
+        return false;
+    mirror->version = words->version;
+    return true;
+}

@@ -128,9 +128,8 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
         !pel_mirror_update(&renderer->world, device, &world->bytes, pel_world_bytes(world),
                            (world->eyes == EYES_ONE ? 1 : 2) * sizeof world->bytes.camera,
                            "the scene", NULL) ||
-        !pel_mirror_update(&renderer->tables, device, world->tables,
-                           world->table_words * sizeof *world->tables, 0, "transfer functions",
-                           NULL) ||
+        !pel_mirror_update_words(&renderer->tables, device, world->tables, "transfer functions",
+                                 NULL) ||
         (world->supersampling &&
          !pel_resolve_prepare(&renderer->resolve, device, kernel, pel_world_pixels(world))) ||
         !grow_buffer(&renderer->sample_counts, &renderer->sample_counts_bytes,
@@ -273,15 +272,13 @@ static bool plan(struct pel_renderer *renderer, const struct pel_scene *scene,
     size_t pixel_bytes = (size_t)pel_world_planes(world) * sizeof(float4) +
                          (world->supersampling ? PEL_RESOLVE_BYTES : 0);
     if (!add_second(world, scene, eyes) ||
-        !pel_residency_check(layout, &limits, pel_world_pixels(world) * pixel_bytes)) {
-        pel_world_finish(world);
+        !pel_residency_check(layout, &limits, pel_world_pixels(world) * pixel_bytes))
         return false;
-    }
     statistics->lanes = renderer->options.lanes ? renderer->options.lanes : info->lanes;
     statistics->reader = layout->reader;
     statistics->skip = scene->render.skip;
     struct pel_skip_facts facts;
-    pel_skip_find_facts(&facts, scene, world, layout->reader);
+    pel_skip_find_facts(&facts, scene, world, &renderer->memo, layout->reader);
     if (scene->render.skip == PEL_SKIP_AUTO)
         statistics->skip = pel_skip_choose(&facts, statistics->skip_reason);
     else if (facts.nothing)
@@ -325,7 +322,6 @@ struct pel_image *pel_frame_render(struct pel_renderer *renderer, const struct p
         if (kernel)
             image = run(renderer, kernel, &shown, &world, eyes, &tiling, options, statistics);
     }
-    pel_world_finish(&world);
     if (image && !image->rgba &&
         !pel_share_put(&renderer->share, renderer->device, &renderer->target, image, &shown.render,
                        &scene->render, options, statistics)) {
@@ -382,7 +378,6 @@ bool pel_renderer_probe(struct pel_renderer *renderer, const struct pel_scene *s
         .world = &world,
     };
     good = good && pel_probe_run(&inputs, x, y, probe);
-    pel_world_finish(&world);
     return good;
 }
 

@@ -20,10 +20,10 @@ static double diagonal_mm(const struct world *bytes) {
                                  (double)high->z - (double)low->z});
 }
 
-// The samples of a part along a line through the middle of the ball around it.
+// The samples of a part along the longest line through it.
 static double part_samples(const struct pel_world *world, int p) {
     const struct world *bytes = &world->bytes;
-    double length_mm = fmin(2 * (double)bytes->balls[p].w, diagonal_mm(bytes));
+    double length_mm = fmin(world->diagonals_mm[p], diagonal_mm(bytes));
     double step_mm = bytes->step_mm;
     if (world->mixing == MIXING_ORDERED)
         step_mm = bytes->parts[p].step_mm;
@@ -47,7 +47,8 @@ static double secondary_rounds(const struct pel_world *world, enum pel_skip skip
                                double step_mm) {
     double parts = world->bytes.part_count;
     double samples = fmin(length_mm, diagonal_mm(&world->bytes)) / step_mm + 1;
-    return parts + samples * (1 + parts * rounds_per_sample(world, skip));
+    double asked = parts > 1 ? 3 * parts : 1; // nodes of the hierarchy, and what is in it
+    return asked + samples * (1 + parts * rounds_per_sample(world, skip));
 }
 
 // Rounds of shading one sample: lamp by lamp, each with its shadow, and around the normal.
@@ -80,8 +81,8 @@ double pel_rounds_most(const struct pel_world *world, enum pel_skip skip) {
         all *= 1 + bytes->part_count;
     else if (!(world->models & MODELS_EMISSION))
         all = fmin(all, diagonal_mm(bytes) / (double)bytes->step_mm + 1);
-    // And a few for each part to find where the ray crosses it.
-    double ray = all + within + 4.0 * bytes->part_count;
+    // And a few for each part to find where the ray crosses it, and its place among the others.
+    double ray = all + within + bytes->part_count * (3.0 + bytes->part_count);
     return world->eyes == EYES_MERGED ? 2 * ray : ray;
 }
 

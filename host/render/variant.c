@@ -56,7 +56,7 @@ struct pel_variant pel_variant_choose(const struct pel_world *world, enum pel_re
         .probe = world->probe,
         .debug = world->bytes.debug != DEBUG_NONE && world->bytes.debug != DEBUG_TIME,
         // Recipes are in constant memory, too.
-        .table_global = pel_world_bytes(world) + world->table_words * sizeof *world->tables +
+        .table_global = pel_world_bytes(world) + world->tables->count * sizeof(u32) +
                             (size_t)world->live_count * sizeof(struct recipe) >
                         constant_bytes,
     };

@@ -164,6 +164,12 @@ static bool fail(char *sentence, size_t bytes, const char *what) {
 bool pel_window_start(char *sentence, size_t bytes) {
     // A joystick is none of our business.
     glfwInitHint(GLFW_JOYSTICK_HAT_BUTTONS, GLFW_FALSE);
+#ifdef GLFW_PLATFORM
+    // GLFW 3.4 looks for Wayland first, and where a session has no place for its socket Wayland's
+    // library complains on standard error.
+    if (getenv("DISPLAY") && !getenv("WAYLAND_DISPLAY") && !getenv("XDG_RUNTIME_DIR"))
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
     return glfwInit() || fail(sentence, bytes, "no window can be opened");
 }
 

@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "volume/hypertexture.h"
 #include "world/model.h"
@@ -37,7 +38,7 @@ static double visible_share(const struct pel_scene *scene, const struct pel_worl
     const struct part *part = &world->bytes.parts[p];
     int instance = world->instances[p], volume = scene->instances[instance].volume;
     const struct pel_statistics *statistics = &scene->statistics[volume];
-    const u32 *counts = world->visible + part->visible;
+    const u32 *next = world->visible->words + part->visible;
     double nought = pel_world_value(scene, instance, reader, 0),
            one = pel_world_value(scene, instance, reader, 1);
     uint64_t seen = 0;
@@ -49,14 +50,39 @@ static double visible_share(const struct pel_scene *scene, const struct pel_worl
         double nearest = round(entry);
         entry = fabs(entry - nearest) < 1e-3 ? nearest : entry;
         entry = fmin(fmax(entry, 0), (double)part->table_last);
-        if (counts[(size_t)ceil(entry) + 1] > counts[(size_t)floor(entry)])
+        if (next[(size_t)floor(entry)] <= (u32)ceil(entry))
             seen += statistics->histogram[bin];
     }
     return statistics->count > 0 ? (double)seen / (double)statistics->count : 0;
 }
 
+// The same, from the frame before where neither table nor values have changed.
+static double remembered_share(const struct pel_scene *scene, const struct pel_world *world, int p,
+                               struct pel_memo *memo, enum pel_reader reader) {
+    const struct part *part = &world->bytes.parts[p];
+    int instance = world->instances[p];
+    const struct pel_statistics *statistics = &scene->statistics[scene->instances[instance].volume];
+    struct pel_memo_shown *shown = &memo->tables[instance].shown;
+    bool same = shown->known && shown->scale == part->table_scale &&
+                shown->bias == part->table_bias && shown->min == statistics->min &&
+                shown->max == statistics->max && shown->count == statistics->count &&
+                memcmp(shown->histogram, statistics->histogram, sizeof shown->histogram) == 0;
+    if (!same) {
+        *shown = (struct pel_memo_shown){.known = true,
+                                         .scale = part->table_scale,
+                                         .bias = part->table_bias,
+                                         .min = statistics->min,
+                                         .max = statistics->max,
+                                         .count = statistics->count};
+        memcpy(shown->histogram, statistics->histogram, sizeof shown->histogram);
+        shown->share = visible_share(scene, world, p, reader);
+    }
+    return shown->share;
+}
+
 void pel_skip_find_facts(struct pel_skip_facts *facts, const struct pel_scene *scene,
-                         const struct pel_world *world, enum pel_reader reader) {
+                         const struct pel_world *world, struct pel_memo *memo,
+                         enum pel_reader reader) {
     *facts = (struct pel_skip_facts){.nothing = pel_model_skips_nothing(scene),
                                      .counts = world->bytes.debug == DEBUG_CLUSTERS ||
                                                world->bytes.debug == DEBUG_NODES,
@@ -74,7 +100,7 @@ void pel_skip_find_facts(struct pel_skip_facts *facts, const struct pel_scene *s
         if (volume->hypertexture)
             seen += (double)voxels; // nobody knows its values
         else if (tells(&world->bytes.parts[p]))
-            seen += (double)voxels * visible_share(scene, world, p, reader);
+            seen += (double)voxels * remembered_share(scene, world, p, memo, reader);
     }
     facts->visible = facts->voxels > 0 ? seen / (double)facts->voxels : 0;
 }
@@ -116,12 +142,11 @@ bool pel_scene_choose_skip(const struct pel_scene *scene, enum pel_skip *skip,
     struct pel_memo memo = {0};
     bool good = pel_layout_plan(&layout, scene, &endless, PEL_READER_BUFFER, PEL_READER_BUFFER) &&
                 pel_world_build(&world, scene, &layout, &memo);
+    if (good) {
+        struct pel_skip_facts facts;
+        pel_skip_find_facts(&facts, scene, &world, &memo, PEL_READER_BUFFER);
+        *skip = pel_skip_choose(&facts, reason);
+    }
     pel_memo_finish(&memo);
-    if (!good)
-        return false;
-    struct pel_skip_facts facts;
-    pel_skip_find_facts(&facts, scene, &world, PEL_READER_BUFFER);
-    *skip = pel_skip_choose(&facts, reason);
-    pel_world_finish(&world);
-    return true;
+    return good;
 }

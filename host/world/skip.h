@@ -17,9 +17,10 @@ struct pel_skip_facts {
 enum { PEL_SKIP_VOXELS_LEAST = 8192 };
 #define PEL_SKIP_VISIBLE_MOST 0.95
 
-// Finds the facts of a scene and of the world that was made of it for a reader.
+// Finds the facts of a scene and of the world that was made of it, with the memo, for a reader.
 void pel_skip_find_facts(struct pel_skip_facts *facts, const struct pel_scene *scene,
-                         const struct pel_world *world, enum pel_reader reader);
+                         const struct pel_world *world, struct pel_memo *memo,
+                         enum pel_reader reader);
 
 // The rule, and why in a few words; never PEL_SKIP_AUTO.
 enum pel_skip pel_skip_choose(const struct pel_skip_facts *facts,

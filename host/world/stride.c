@@ -73,12 +73,10 @@ bool pel_stride_fill_part(struct pel_world *world, struct part *part, const stru
         return true;
     const struct pel_table *table = &memo->table;
     const struct pel_volume *volume = scene->volumes[instance->volume];
-    size_t words = world->visible_words + 2 * (size_t)table->entry_count;
-    u32 *grown = realloc(world->visible, words * sizeof *grown);
-    if (!grown)
-        return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
-    world->visible = grown;
-    part->variation = (u32)world->visible_words;
+    part->variation = (u32)world->visible->count;
+    u32 *variation;
+    if (!pel_memo_append(world->visible, 2 * (size_t)table->entry_count, &variation))
+        return false;
     part->variation_scale = (float)(table->entry_count - 1) / part->table_last;
     part->stride_max = longest_run(world, scene, instance);
     // Light changes with the normal, a volume's own colours with anything, and what is absent
@@ -95,8 +93,7 @@ bool pel_stride_fill_part(struct pel_world *world, struct part *part, const stru
         memcpy(before, entry, sizeof before);
         sum += most;
         const float pair[2] = {(float)sum, (float)entry[3]};
-        memcpy(&grown[part->variation + 2 * (size_t)j], pair, sizeof pair);
+        memcpy(&variation[2 * (size_t)j], pair, sizeof pair);
     }
-    world->visible_words = words;
     return true;
 }

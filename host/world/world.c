@@ -8,6 +8,7 @@
 #include "accel/grid.h"
 #include "base/error.h"
 #include "base/math.h"
+#include "world/boxes.h"
 #include "world/brick.h"
 #include "world/clip.h"
 #include "world/lighting.h"
@@ -36,30 +37,7 @@ static bool fill_recipe(struct pel_world *world, struct part *part, int volume) 
     return true;
 }
 
-// The ball around a part's box, a little too large for what rounding may add.
-static float4 bound_part(const struct part *part, const struct pel_matrix *world_from_voxel) {
-    const double low[3] = {part->box_low.x, part->box_low.y, part->box_low.z};
-    const double high[3] = {part->box_high.x, part->box_high.y, part->box_high.z};
-    double middle[3], radius = 0;
-    for (int i = 0; i < 3; i++) {
-        middle[i] = world_from_voxel->m[i][3];
-        for (int j = 0; j < 3; j++)
-            middle[i] += world_from_voxel->m[i][j] * (low[j] + high[j]) / 2;
-    }
-    for (int corner = 0; corner < 8; corner++) {
-        double squared = 0;
-        for (int i = 0; i < 3; i++) {
-            double away = world_from_voxel->m[i][3] - middle[i];
-            for (int j = 0; j < 3; j++)
-                away += world_from_voxel->m[i][j] * (corner >> j & 1 ? high[j] : low[j]);
-            squared += away * away;
-        }
-        radius = fmax(radius, sqrt(squared));
-    }
-    return pel_narrow(middle, radius * (1 + 1e-5) + 1e-6 * pel_length(middle));
-}
-
-// Where the slab of a volume lies, in voxels and in memory, and the ball around it in the world.
+// Where the slab of a volume lies, in voxels and in memory, and the box around it in the world.
 static void fill_place(struct pel_world *world, struct part *part, const struct pel_slab *slab,
                        const struct pel_volume *volume, double outer,
                        const struct pel_matrix *world_from_voxel) {
@@ -76,7 +54,7 @@ static void fill_place(struct pel_world *world, struct part *part, const struct 
         high[2] = slab->first + slab->count - 0.5;
     part->box_low = pel_narrow(low, 0);
     part->box_high = pel_narrow(high, 0);
-    world->bytes.balls[part->number] = bound_part(part, world_from_voxel);
+    pel_boxes_bound(world, part, world_from_voxel);
     part->memory_from_voxel = pel_narrow(shift, 0);
     part->atlas_from_memory = pel_narrow(origin, 0);
 }
@@ -207,7 +185,7 @@ static bool fill_instances(struct pel_world *world, const struct pel_scene *scen
         if (world->models & MODELS_EMISSION)
             pattern.filter = FILTERS_NEAREST;
         world->filters |= pattern.filter;
-        if (!pel_world_add_table(world, scene, layout, instance, &memo->tables[k], &pattern))
+        if (!pel_world_add_table(world, scene, layout, instance, memo, &pattern))
             return false;
         const struct pel_table *table = &memo->tables[k].table;
         if (!pel_lighting_fill_part(&pattern, instance, scene->volumes[instance->volume]) ||
@@ -294,8 +272,8 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     bool good = pel_world_build_tables(world, scene, memo);
     good = good && fill_instances(world, scene, layout, memo, centre) &&
            fill_masks(world, scene, layout, centre) && pel_secondary_fill(world, scene);
-    if (!good)
-        pel_world_finish(world);
+    if (good)
+        pel_boxes_join(world);
     return good;
 }
 
@@ -310,11 +288,4 @@ void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {
 size_t pel_world_bytes(const struct pel_world *world) {
     int rows = world->cut_count + world->bytes.occlusion_count;
     return offsetof(struct world, cuts) + (size_t)rows * sizeof *world->bytes.cuts;
-}
-
-void pel_world_finish(struct pel_world *world) {
-    free(world->tables);
-    free(world->visible);
-    world->tables = world->visible = NULL;
-    world->table_words = world->visible_words = 0;
 }

@@ -2,6 +2,7 @@
 #ifndef PEL_WORLD_WORLD_H
 #define PEL_WORLD_WORLD_H
 
+#include "accel/bvh.h"
 #include "shared/recipe.h"
 #include "world/layout.h"
 #include "world/memo.h"
@@ -9,14 +10,12 @@
 // One frame's constant data, and which kernel it needs.
 struct pel_world {
     struct world bytes;
-    u32 *tables; // owned; the words of all transfer functions, one after the other
-    size_t table_words;
-    u32 *visible; // owned; for each table, how many entries before each one can be seen
-    size_t visible_words;
-    size_t cell_count; // of all parts (shared/grid.h)
-    int cell_side;     // voxels along a side of a cell
-    bool pool;         // bricks come from a pool
-    bool border;       // bricks have a border
+    struct pel_memo_words *tables;  // the words of all transfer functions, one after the other
+    struct pel_memo_words *visible; // for each table, how many entries before each can be seen
+    size_t cell_count;              // of all parts (shared/grid.h)
+    int cell_side;                  // voxels along a side of a cell
+    bool pool;                      // bricks come from a pool
+    bool border;                    // bricks have a border
     // What the kernel must be able to do.
     int voxels;         // classes of voxels, VOXELS_*
     int filters;        // FILTERS_*
@@ -36,7 +35,9 @@ struct pel_world {
     bool probe;         // one ray is to write down what it meets
     double centre[3];   // world millimetres of the origin of the kernels' world
     int part_total;     // parts, with those of masks behind the ones that are shown
-    int instances[WORLD_PART_MAX]; // which instance of the scene each part is of
+    struct pel_box boxes[WORLD_PART_MAX]; // around each part, a little too large
+    double diagonals_mm[WORLD_PART_MAX];  // the longest line through each part
+    int instances[WORLD_PART_MAX];        // which instance of the scene each part is of
     int live[RECIPE_LIVE_MAX]; // volumes that are worked out at every sample, in the order of their
                                // recipes
     int live_count;
@@ -48,7 +49,6 @@ struct pel_world {
 // a camera without direction, a singular placement, more parts than WORLD_PART_MAX.
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout, struct pel_memo *memo);
-void pel_world_finish(struct pel_world *world);
 
 // Whether a pixel takes more than the one ray through its centre.
 bool pel_world_is_supersampled(const struct pel_supersampling *supersampling);

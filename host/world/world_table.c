@@ -2,11 +2,8 @@
 // entry for what it reads.
 //
 // A table's words are those of world/strength.h; the tables of all instances lie one after the
-// other, and so do the counts of visible entries, one more than a table has entries.
+// other, and so do the visible of visible entries, one more than a table has entries.
 #include "world/world_table.h"
-
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/error.h"
 #include "world/mixing.h"
@@ -31,28 +28,6 @@ static void fill_table_address(struct part *part, const struct pel_volume *volum
     part->table_nearest = table->nearest;
 }
 
-// Appends the counts of visible entries for the table that starts at `start`: one more than it has
-// entries.
-static bool count_visible(struct pel_world *world, const u32 *start, size_t entries,
-                          struct part *part) {
-    size_t words = world->visible_words + entries + 1;
-    u32 *visible = realloc(world->visible, words * sizeof *visible);
-    if (!visible)
-        return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
-    world->visible = visible;
-    part->visible = (u32)world->visible_words;
-    u32 *counts = visible + world->visible_words;
-    counts[0] = 0;
-    for (size_t i = 0; i < entries; i++) {
-        float strength;
-        memcpy(&strength, &start[PEL_STRENGTH_WORDS * i], sizeof strength);
-        bool glows = world->models & MODELS_THESIS && start[PEL_STRENGTH_WORDS * i + 1] != 0;
-        counts[i + 1] = counts[i] + (strength > 0 || glows);
-    }
-    world->visible_words = words;
-    return true;
-}
-
 // The length that one sample of the instance stands for.
 static double sample_mm(const struct pel_world *world, const struct pel_scene *scene,
                         const struct pel_instance *instance) {
@@ -62,6 +37,9 @@ static double sample_mm(const struct pel_world *world, const struct pel_scene *s
 
 bool pel_world_build_tables(struct pel_world *world, const struct pel_scene *scene,
                             struct pel_memo *memo) {
+    pel_memo_begin(memo);
+    world->tables = &memo->words;
+    world->visible = &memo->visible;
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];
         if (instance->hidden)
@@ -79,29 +57,25 @@ bool pel_world_build_tables(struct pel_world *world, const struct pel_scene *sce
 
 bool pel_world_add_table(struct pel_world *world, const struct pel_scene *scene,
                          const struct pel_layout *layout, const struct pel_instance *instance,
-                         struct pel_memo_table *memo, struct part *part) {
-    struct pel_memo_form form = {.depth = world->depth, .linear = world->table_linear};
-    struct pel_table ends = memo->table;
-    bool pairs = memo->rule.model == MODEL_PREINTEGRATED;
+                         struct pel_memo *memo, struct part *part) {
+    struct pel_memo_table *table = &memo->tables[instance - scene->instances];
+    struct pel_memo_form form = {.depth = world->depth,
+                                 .linear = world->table_linear,
+                                 .glows = (world->models & MODELS_THESIS) != 0};
+    struct pel_table ends = table->table;
+    bool pairs = table->rule.model == MODEL_PREINTEGRATED;
     if (pairs) { // over the values that the volume has
         const struct pel_statistics *values = &scene->statistics[instance->volume];
         ends.low = form.low = values->min;
         ends.high = form.high = values->max > values->min ? values->max : values->min + 1;
     }
-    if (!pel_memo_write(memo, &form))
+    if (!pel_memo_write(table, &form) || !pel_memo_place(memo, table))
         return false;
-    size_t words = world->table_words + memo->entries * PEL_STRENGTH_WORDS;
-    u32 *tables = realloc(world->tables, words * sizeof *tables);
-    if (!tables)
-        return pel_fail(PEL_ERROR_MEMORY, "cannot allocate %zu words for tables", words);
-    world->tables = tables;
-    memcpy(tables + world->table_words, memo->words,
-           memo->entries * PEL_STRENGTH_WORDS * sizeof *tables);
-    part->table = (u32)world->table_words;
-    world->table_words = words;
-    int last = pairs ? PAIR_ENTRIES - 1 : (int)memo->entries - 2;
+    part->table = (u32)table->word_place;
+    part->visible = (u32)table->visible_place;
+    int last = pairs ? PAIR_ENTRIES - 1 : (int)table->entries - 2;
     fill_table_address(part, scene->volumes[instance->volume], &ends, last, layout->reader);
-    return count_visible(world, memo->seen, memo->seen_entries, part);
+    return true;
 }
 
 double pel_world_value(const struct pel_scene *scene, int instance, enum pel_reader reader,

@@ -14,6 +14,6 @@ bool pel_world_build_tables(struct pel_world *world, const struct pel_scene *sce
 // refer to it. Fails (MEMORY).
 bool pel_world_add_table(struct pel_world *world, const struct pel_scene *scene,
                          const struct pel_layout *layout, const struct pel_instance *instance,
-                         struct pel_memo_table *memo, struct part *part);
+                         struct pel_memo *memo, struct part *part);
 
 #endif

@@ -30,6 +30,7 @@ struct gathered {
 #if MODELS & MODELS_PROJECTION
     struct projection projections[CAPACITY];
 #endif
+    int met;               // parts that are remembered
     struct light surfaces; // of the present sample, in the order of the list; they come first
     struct light media;    // and everything else
 };
@@ -58,8 +59,9 @@ INLINE void light_behind(struct light *light, const struct light *layer) {
     light->a += clear * layer->a;
 }
 
-INLINE void gathered_begin(struct gathered *gathered, const struct crossing *crossing) {
-    for (int c = 0; c < COUNTED(crossing->count); c++) {
+// Remembers the parts that the packet has come to since it was asked last.
+INLINE void gathered_meet(struct gathered *gathered, const struct crossing *crossing) {
+    for (int c = gathered->met; c < COUNTED(crossing->count); c++) {
 #if MODELS_SEGMENT
         gathered->raw[c] = (real)(0.0f);
         gathered->at[c] = (integer)(-2);
@@ -74,6 +76,12 @@ INLINE void gathered_begin(struct gathered *gathered, const struct crossing *cro
 #endif
 #endif
     }
+    gathered->met = COUNTED(crossing->count);
+}
+
+INLINE void gathered_begin(struct gathered *gathered, const struct crossing *crossing) {
+    gathered->met = 0;
+    gathered_meet(gathered, crossing);
     gathered->surfaces = gathered->media = no_light();
 }
 

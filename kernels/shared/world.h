@@ -8,10 +8,12 @@
 //       struct camera [2]      the only part that changes when the camera moves; of both eyes
 //       bounds, step ...       one per frame
 //       struct lamp lamps[]    what shaded volumes are lit by
+//       struct bvh_node nodes[] a hierarchy over the parts' boxes
 //       struct part parts[]    one box of voxels each, in the order of the scene's list
 #ifndef SHARED_WORLD_H
 #define SHARED_WORLD_H
 
+#include "shared/bvh.h"
 #include "shared/types.h"
 #include "shared/variant.h"
 
@@ -64,7 +66,7 @@ struct part {
     u32 cells;                  // index of the part's first cell (shared/grid.h)
     i32 cell_row, cell_slice;   // cells from one row and slice of them to the next
     u32 ranges;                 // index of the first cell's range of values
-    u32 visible;                // index of the table's first count of visible entries
+    u32 visible;                // index of the first of the visible entries from each one on
     float normal_scale;         // from a difference over two voxels to ranges of the table per voxel, negative
     float spacing_mm;           // of the nearest voxels
     i32 shading;                // one of SHADING_*
@@ -131,14 +133,14 @@ struct world {
     float occlusion_step_mm, occlusion_radius_mm, occlusion_strength;
     i32 occlusion_count; // directions,
     i32 directions;      // and the index of the first one's row
-    float4 balls[WORLD_PART_MAX]; // around the box of each part: middle and radius
+    struct bvh_node nodes[2 * WORLD_PART_MAX]; // over the boxes of all parts that are shown, if there are several
     struct lamp lamps[LAMP_MAX];
     struct part parts[WORLD_PART_MAX];
     float4 cuts[WORLD_ROW_MAX]; // only as many as there are reach the device
 };
 
 SHARED_ASSERT(sizeof(struct world) ==
-                  496 + 48 * LAMP_MAX + (16 + 464) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
+                  496 + 48 * LAMP_MAX + (64 + 464) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
               world_size);
 
 #endif

@@ -14,12 +14,6 @@
 // Boxes are widened by this many voxels, so that rounding can only cost another look.
 #define BVH_MARGIN 0x1p-6f
 
-#if LANES == 1
-#define FIRST_LANE(v) (v)
-#else
-#define FIRST_LANE(v) (v).s0
-#endif
-
 // With blocks, a node also says which bins of values there are below it.
 #if SKIP == SKIP_BLOCKS
 #define NODE_AXIS(node) ((node).axis & ((1 << BLOCK_AXIS_BITS) - 1))

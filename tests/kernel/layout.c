@@ -116,7 +116,7 @@ static const struct {
     AT(world, merge_linear),
     AT(world, merge),
     AT(world, merged_background),
-    AT(world, balls),
+    AT(world, nodes),
     AT(world, shadow_step_mm),
     AT(world, shadow_length_mm),
     AT(world, shadow_strength),

@@ -40,7 +40,7 @@ static void test_warning(void **state) {
     pel_renderer_destroy(renderer);
 }
 
-// Two volumes in boxes of 30 x 40 x 0 mm, whose balls span 50 mm, at steps of 1 mm: 51 samples.
+// Two volumes in boxes of 30 x 40 x 0 mm, 50 mm across, at steps of 1 mm: 51 samples.
 static void test_by_hand(void **state) {
     (void)state;
     static struct pel_world world;
@@ -48,20 +48,20 @@ static void test_by_hand(void **state) {
     world.bytes.bounds_high = (float4){30, 40, 0, 0};
     world.bytes.step_mm = 1;
     world.bytes.part_count = 1;
-    world.bytes.balls[0].w = world.bytes.balls[1].w = 25;
+    world.diagonals_mm[0] = world.diagonals_mm[1] = 50;
     assert_float_equal(pel_rounds_most(&world, PEL_SKIP_NONE), 51 + 4, 1e-3);
     assert_float_equal(pel_rounds_most(&world, PEL_SKIP_GRID), 2 * 51 + 4, 1e-3);
     // Each of two asks at each sample, and finds its way.
     world.bytes.part_count = 2;
-    assert_float_equal(pel_rounds_most(&world, PEL_SKIP_GRID), 51 + 2 * 51 * 2 + 8, 1e-3);
+    assert_float_equal(pel_rounds_most(&world, PEL_SKIP_GRID), 51 + 2 * 51 * 2 + 10, 1e-3);
     // One of them is lit by two lamps, with shadows of 10 mm in steps of 2 mm: 6 samples.
     world.bytes.parts[0].shading = SHADING_PHONG;
     world.bytes.lamp_count = 2;
     world.secondary = SECONDARY_SHADOWS;
     world.bytes.shadow_length_mm = 10;
     world.bytes.shadow_step_mm = 2;
-    double shadow = 2 + 6 * (1 + 2 * 1);
-    double lit = 51 + 2 * 51 + 51 * (2 + 2 * shadow) + 8;
+    double shadow = 6 + 6 * (1 + 2 * 1);
+    double lit = 51 + 2 * 51 + 51 * (2 + 2 * shadow) + 10;
     assert_float_equal(pel_rounds_most(&world, PEL_SKIP_NONE), lit, 1e-2);
     world.eyes = EYES_MERGED;
     assert_float_equal(pel_rounds_most(&world, PEL_SKIP_NONE), 2 * lit, 1e-2);

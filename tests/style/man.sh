@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# man.sh - the manual page has the options that --help shows, command by command, no more and no fewer.
+# man.sh - the manual page has the options that --help shows, command by command, no more and no fewer, and the suites of
+# `bench`; and groff understands all of it.
 set -eu
 cd "$SOURCE"
 page=docs/pellucid.1
@@ -27,4 +28,11 @@ for command in "${commands[@]}"; do
         failed=1
     fi
 done
+while read -r suite _; do
+    grep -qw -- "$suite" <(sed -n '/^\.SS bench/,/^\.TP/p' "$page") || { echo "$page: no word of the suite '$suite'"; failed=1; }
+done < <("$PELLUCID" bench --list)
+if command -v groff >/dev/null; then
+    said=$(groff -man -w mac -z "$page" 2>&1)
+    [ -z "$said" ] || { echo "$page: $said"; failed=1; }
+fi
 exit $failed
