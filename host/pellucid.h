@@ -1072,6 +1072,7 @@ struct pel_render_statistics {
     uint64_t samples_skipped;    // others, where skipping has found nothing to see
     uint64_t samples_terminated; // and those behind the end of a ray that ended early
     uint64_t samples_spared;     // and those that others stand for, by adaptive steps
+    uint64_t boxes_entered;      // boxes of volumes that packets of rays came to, all together
     uint64_t rays;               //
     double refined;              // share of the pixels that got all their rays: 1 unless adaptive
     uint64_t device_bytes;       // allocated on the device at the end of the frame

@@ -1,10 +1,10 @@
 // bins.cl - what the sub-blocks of traverse/blocks.cl are culled by: bins of values.
 //
-// The entries of a part's table are divided into BLOCK_BINS bins. A sub-block has one bit for each bin that values in it
-// touch (Derin et al. 2021, section 2.3), and none where the value around the part's first corner fills it: there are no
-// data. That does not depend on what can be seen, so an edit of the transfer function costs no more than to find the
-// visible bins, and a look at the cells of the stored sub-blocks.
-// Included by occupancy.cl.
+// The entries of a part's table are divided into BLOCK_BINS bins. A sub-block has one bit for each
+// bin that values in it touch (Derin et al. 2021, section 2.3), and none where the value around the
+// part's first corner fills it: there are no data. That does not depend on what can be seen, so an
+// edit of the transfer function costs no more than to find the visible bins, and a look at the
+// cells of the stored sub-blocks. Included by occupancy.cl.
 #ifndef BINS_CL
 #define BINS_CL
 
@@ -18,9 +18,9 @@ static uint bins_between(__constant struct part *part, float low, float high) {
     return (2u << last) - (1u << first);
 }
 
-// The bins of which something can be seen. An entry before which a bin ends belongs to it, too, because what is between
-// entries is interpolated.
-static uchar visible_bins(__constant struct part *part, __global const uint *counts) {
+// The bins of which something can be seen. An entry before which a bin ends belongs to it, too,
+// because what is between entries is interpolated.
+static uchar visible_bins(__constant struct part *part, __global const uint *next) {
     uint bins = 0;
     if (part->model == MODEL_AVERAGE)
         return BLOCK_BINS_ALL;
@@ -41,13 +41,14 @@ static uchar visible_bins(__constant struct part *part, __global const uint *cou
             first = 0;
         if (part->model == MODEL_MINIP)
             last = (int)part->table_last;
-        if (counts[last + 1] > counts[first])
+        if ((int)next[first] <= last)
             bins |= 1u << bin;
     }
     return (uchar)bins;
 }
 
-// The bins that the values of brick i touch, which has 2^bits cells along a side. With `whole`, what is no data, too.
+// The bins that the values of brick i touch, which has 2^bits cells along a side. With `whole`,
+// what is no data, too.
 static uchar find_bins(__constant struct part *part, __global const float2 *ranges,
                        struct cell_dims dims, int i, int bits, bool whole) {
     const int size = 1 << bits;
@@ -75,7 +76,8 @@ static uchar find_bins(__constant struct part *part, __global const float2 *rang
     return data ? (uchar)bins : (uchar)0;
 }
 
-// Leaves stored sub-block i of the part its bins, or none where all its cells, 2^bits along a side, are empty now.
+// Leaves stored sub-block i of the part its bins, or none where all its cells, 2^bits along a side,
+// are empty now.
 static void keep_seen(__constant struct part *part, __global const uchar *cells,
                       __global uchar *blocks, struct cell_dims dims, int i, int bits) {
     __global const struct block_grid *grid =
@@ -86,6 +88,13 @@ static void keep_seen(__constant struct part *part, __global const uchar *cells,
     __global uchar *seen = blocks + grid->seen;
     const uchar bins = seen[grid->stored + i];
     seen[i] = find_brick(part, cells, dims, (int)places[i], bits) ? bins : (uchar)0;
+}
+
+// Whether the value around a part's first corner can be seen.
+static uchar corner_visible(__constant struct part *part, __global const float2 *ranges,
+                            __global const uint *next, struct cell_dims dims, bool linear) {
+    const float2 range = reachable(part, ranges, dims, 0, 0);
+    return any_lane(occupied(part, (real)(range.x), (real)(range.y), next, linear));
 }
 
 #endif

@@ -71,9 +71,9 @@ INLINE void approach_node(__constant struct world *world, struct crossing *cross
 }
 
 INLINE void approach_children(__constant struct world *world, struct crossing *crossing, int n,
-                              mask asks) {
+                              int link, mask asks) {
     for (int child = 0; child < 2; child++)
-        approach_node(world, crossing, child ? world->nodes[n].link : n + 1, asks);
+        approach_node(world, crossing, child ? link : n + 1, asks);
 }
 
 // Looks what there is below a node that rays have come to.
@@ -83,7 +83,7 @@ INLINE void enter_node(__constant struct world *world, __global const uchar *cel
     if (link < 0)
         cross_part(world, cells, &crossing->ray, crossing->t_near, world->step_mm, -1 - link, crossing);
     else
-        approach_children(world, crossing, n, asks);
+        approach_children(world, crossing, n, link, asks);
 }
 #endif
 
@@ -175,7 +175,7 @@ INLINE void find_crossing(__constant struct world *world, __global const uchar *
     crossing->t_near = t_near;
     crossing->end = (integer)(0);
     if (any_lane(crosses))
-        approach_children(world, crossing, 0, crosses);
+        approach_children(world, crossing, 0, world->nodes[0].link, crosses);
 #elif CAPACITY > 1
     cross_parts(world, cells, ray, t_near, parts, crossing);
 #else

@@ -1,59 +1,107 @@
-// distances.cl - from the empty cells of a part to how far each is from one that is not.
+// distances.cl - from the empty cells of a part to each one's distance from something that may be
+// visible.
 //
-// Three passes, one axis at a time and a row of cells at a time: the Chebyshev distance separates,
-// D(x) = min over k of max(|k|, D(x + k)).
+// The Chebyshev distance separates: D(x) = min over k of max(|k|, D(x + k)), one axis after the
+// other. Along x, where there is nothing but 0 and CELL_DISTANCE_MAX before, a row is swept to and
+// fro. Along y and z, 16 cells that lie beside each other look further and further away, one cell
+// in both directions at a time, until none of them can come nearer.
+//
+// The last 16 cells of a row may have some in common with those before. Of a row with fewer, what
+// is loaded behind its end, in the buffer's slack (CELL_SLACK) at the last, counts for nothing.
 // Included by occupancy.cl.
 #ifndef DISTANCES_CL
 #define DISTANCES_CL
 
-// Where a row of cells begins that runs along one axis (0, 1, 2), and how it goes on.
-struct cell_row {
-    int start, stride, count;
-};
+#include "shared/grid.h"
 
-// One way along a row. What a cell is told from behind is the least of max(k, distance of the k-th cell behind it), which
-// grows by no more than one from cell to cell: it stays what it was, v, as long as a cell with no more than v is no
-// further than v away. `last` has where each distance was met last.
-static void spread_one_way(__global const uchar *in, __global uchar *out, struct cell_row row, bool back) {
-    short last[CELL_DISTANCE_MAX + 1];
-    for (int d = 0; d <= CELL_DISTANCE_MAX; d++)
-        last[d] = -CELL_DISTANCE_MAX - 1;
-    int best = CELL_DISTANCE_MAX, met = -CELL_DISTANCE_MAX - 1;
-    for (int n = 0; n < row.count; n++) {
-        const int at = row.start + (back ? row.count - 1 - n : n) * row.stride;
-        const int own = in[at];
-        last[own] = (short)n;
-        if (own <= best) {
-            best = own;
-            met = n;
-        } else if (n - met > best && best < CELL_DISTANCE_MAX) {
-            best++;
-            met = max(met, (int)last[best]);
-        }
-        out[at] = (uchar)(back ? min(best, (int)out[at]) : best);
+#define CELL_NUMBERS ((uchar16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+
+// PoCL makes sixteen stores of a vstore16 of bytes.
+typedef uchar16 loose_cells __attribute__((aligned(1)));
+
+// Stores 16 cells of a row, or all of a shorter one.
+static void store_cells(uchar16 cells, __global uchar *out, int width) {
+    if (width >= 16) {
+        *(__global loose_cells *)out = cells;
+        return;
+    }
+    uchar each[16];
+    vstore16(cells, 0, each);
+    for (int n = 0; n < width; n++)
+        out[n] = each[n];
+}
+
+// Cells that learn from those before them: by steps of 1, 2, 4 and 8, and then from `carry`, the
+// one before all.
+static uchar16 sweep_up(uchar16 v, uchar carry) {
+    const uchar far = CELL_DISTANCE_MAX;
+    const uchar8 beyond = (uchar8)(far);
+    v = min(v, (uchar16)(far, v.s01234567, v.s89ab, v.scd, v.se) + (uchar16)(1));
+    v = min(v, (uchar16)(far, far, v.s01234567, v.s89ab, v.scd) + (uchar16)(2));
+    v = min(v, (uchar16)(beyond.lo, v.s01234567, v.s89ab) + (uchar16)(4));
+    v = min(v, (uchar16)(beyond, v.s01234567) + (uchar16)(8));
+    return min(v, CELL_NUMBERS + (uchar16)(carry + 1));
+}
+
+// Spreads distances along x, to and fro.
+static void spread_along(__global const uchar *in, __global uchar *out, int width) {
+    const int last = max(width - 16, 0);
+    for (int x = 0; x < width; x += 16) {
+        const int at = min(x, last);
+        const uchar before = at > 0 ? out[at - 1] : (uchar)(CELL_DISTANCE_MAX);
+        store_cells(sweep_up(vload16(0, in + at), before), out + at, width);
+    }
+    for (int x = last; x > -16; x -= 16) {
+        const int at = max(x, 0);
+        uchar16 v = vload16(0, out + at);
+        v = select((uchar16)(CELL_DISTANCE_MAX), v, CELL_NUMBERS < (uchar16)(min(width, 16)));
+        const uchar behind = at < last ? out[at + 16] : (uchar)(CELL_DISTANCE_MAX);
+        v = sweep_up(v.sfedcba9876543210, behind).sfedcba9876543210;
+        store_cells(v, out + at, width);
     }
 }
 
-// Spreads distances along the i-th row of an axis, both ways.
-static void spread(__constant struct part *part, __global const uchar *in, __global uchar *out,
-                   struct cell_dims dims, int i, uint axis) {
-    struct cell_row row = {i * dims.x, 1, dims.x};
-    int rows = dims.y * dims.z;
-    if (axis == 1) {
-        row.start = i / dims.x * part->cell_slice + i % dims.x;
-        row.stride = part->cell_row;
-        row.count = dims.y;
-        rows = dims.x * dims.z;
-    } else if (axis == 2) {
-        row.start = i;
-        row.stride = part->cell_slice;
-        row.count = dims.z;
-        rows = dims.x * dims.y;
+// Whether one of 16 cells is further than r from what is known.
+static bool any_beyond(uchar16 distance, int r) {
+    const ulong2 words = as_ulong2(distance > (uchar16)(r));
+    return (words.x | words.y) != 0;
+}
+
+// Spreads distances to row i along y or z, from rows that are `stride` cells apart, with so many
+// before it and after it.
+static void spread_across(__global const uchar *in, __global uchar *out, int width, int stride,
+                          int rows_before, int rows_after) {
+    const int last = max(width - 16, 0);
+    for (int x = 0; x < width; x += 16) {
+        const int at = min(x, last);
+        __global const uchar *before = in + at, *after = in + at;
+        uchar16 nearest = vload16(0, before), found = nearest;
+        found = select((uchar16)(0), found, CELL_NUMBERS < (uchar16)(min(width, 16)));
+        // Behind the last row there is that row again, which changes nothing.
+        for (int r = 1; r <= CELL_DISTANCE_MAX && any_beyond(found, r); r++) {
+            before -= r <= rows_before ? stride : 0;
+            after += r <= rows_after ? stride : 0;
+            nearest = min(nearest, min(vload16(0, before), vload16(0, after)));
+            found = min(found, max(nearest, (uchar16)(r)));
+        }
+        store_cells(found, out + at, width);
     }
-    if (i >= rows)
+}
+
+// One pass over row i.
+static void spread(__global const uchar *in, __global uchar *out, struct cell_dims dims, int i,
+                   int pass) {
+    const int y = i % dims.y, z = i / dims.y;
+    if (z >= dims.z)
         return;
-    spread_one_way(in, out, row, false);
-    spread_one_way(in, out, row, true);
+    in += i * dims.x;
+    out += i * dims.x;
+    if (pass == PASS_ROW)
+        spread_along(in, out, dims.x);
+    else if (pass == PASS_COLUMN)
+        spread_across(in, out, dims.x, dims.x, y, dims.y - 1 - y);
+    else
+        spread_across(in, out, dims.x, dims.x * dims.y, z, dims.z - 1 - z);
 }
 
 #endif

@@ -40,7 +40,10 @@ INLINE void central_differences(MEMORY_PARAMETERS, __constant struct part *part,
                                 real y, real z, real difference[3]) {
 #if BRICK_GRADIENT
     if (HAS_BRICK_GRADIENT(part)) {
-        brick_differences(MEMORY_ARGUMENTS, part, x, y, z, difference);
+        struct surroundings around;
+        look_around(MEMORY_ARGUMENTS, part, x, y, z, &around);
+        for (int axis = 0; axis < 3; axis++)
+            difference[axis] = around.difference[axis];
         return;
     }
 #endif

@@ -1,9 +1,11 @@
-// gradient_brick.cl - central differences straight from bricks with a border, for integers and the linear filter.
+// gradient_brick.cl - samples with central differences straight from bricks with a border, for integers and the linear
+// filter.
 //
 // The six samples one voxel away have the weights of the sample between them, and interpolation is linear: so voxels
 // are subtracted first, and half the interpolation is saved. All 32 voxels lie at fixed distances from the first of the
 // sample's own, four of a row, or of two rows of bytes, in each load of eight bytes. Up to rounding the same numbers as
-// central_differences, which takes what is not handled here.
+// central_differences, which takes what is not handled here. The sample's own voxels are among them: its value costs no
+// load more, and is to the bit what sample_part gives.
 //
 // Integers become floats without conversion: n below the exponent bits of 2^23 is 2^23 + n, and the difference of two
 // such floats is exact. The second byte of a word need not even move: below the exponent bits of 2^15 it adds n. So
@@ -13,7 +15,7 @@
 
 #include "sample.cl"
 
-// 1: there are parts that brick_differences handles.
+// 1: there are parts that look_around handles.
 #if READER == READER_BUFFER && BORDER && (VOXELS & (VOXELS_U8 | VOXELS_U16)) != 0 &&               \
     (FILTERS & FILTERS_LINEAR) != 0
 #define BRICK_GRADIENT 1
@@ -68,10 +70,15 @@ INLINE struct twin load_twins(__global const ushort *row, const struct indices *
 }
 
 // Voxels (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of a slice, as floats with something above them; and where
-// the slice is one of the cell's two, how its values change along x and y.
+// the slice is one of the cell's two, its value and how it changes along x and y.
 struct slice {
     real near, right, down, far;
-    real along_x, along_y;
+    real value, along_x, along_y;
+};
+
+// What the voxels around a sample tell: its raw value, and the difference that the gradient makes over two voxels.
+struct surroundings {
+    real raw, difference[3];
 };
 
 INLINE real mix_face(real near, real right, real down, real far, const struct cell *cell) {
@@ -79,6 +86,9 @@ INLINE real mix_face(real near, real right, real down, real far, const struct ce
 }
 
 #if VOXELS & VOXELS_U8
+#define ABOVE_EVEN_BYTE 0x1p23f
+#define ABOVE_ODD_BYTE 0x1p15f
+
 INLINE real even_byte(integer word) {
     return AS_REAL((word & 0xff) | 0x4b000000);
 }
@@ -109,6 +119,9 @@ INLINE struct slice inner_slice_u8(__global const ushort *voxels, const struct i
     s.right = odd_byte(up.second);
     s.down = even_byte(low_high);
     s.far = even_byte(low.second);
+    s.value = mix_lanes(
+        mix_lanes(s.near - ABOVE_ODD_BYTE, s.down - ABOVE_EVEN_BYTE, cell->y),
+        mix_lanes(s.right - ABOVE_ODD_BYTE, s.far - ABOVE_EVEN_BYTE, cell->y), cell->x);
     s.along_x = mix_face(s.right - odd_byte(up.first), odd_byte(up.second >> 16) - s.near,
                          s.far - even_byte(low.first), even_byte(low.second >> 16) - s.down, cell);
     s.along_y = mix_face(s.down - even_byte(up_high), s.far - even_byte(up.second), odd_byte(low_high) - s.near,
@@ -118,6 +131,8 @@ INLINE struct slice inner_slice_u8(__global const ushort *voxels, const struct i
 #endif
 
 #if VOXELS & VOXELS_U16
+#define ABOVE_HALF 0x1p23f
+
 INLINE real low_half(integer word) {
     return AS_REAL((word & 0xffff) | 0x4b000000);
 }
@@ -147,6 +162,7 @@ INLINE struct slice inner_slice_u16(__global const ushort *voxels, const struct 
     s.right = low_half(row.second);
     s.down = high_half(next.first);
     s.far = low_half(next.second);
+    s.value = mix_face(s.near - ABOVE_HALF, s.right - ABOVE_HALF, s.down - ABOVE_HALF, s.far - ABOVE_HALF, cell);
     s.along_x = mix_face(s.right - low_half(row.first), high_half(row.second) - s.near,
                          s.far - low_half(next.first), high_half(next.second) - s.down, cell);
     s.along_y = mix_face(s.down - low_half(before), s.far - high_half(before),
@@ -162,8 +178,9 @@ INLINE real change_across(const struct slice *more, const struct slice *less,
                     more->far - less->far, cell);
 }
 
-INLINE void brick_differences(MEMORY_PARAMETERS, __constant struct part *part, real x, real y,
-                              real z, real difference[3]) {
+// The surroundings of a place in memory coordinates.
+INLINE void look_around(MEMORY_PARAMETERS, __constant struct part *part, real x, real y, real z,
+                        struct surroundings *around) {
     const integer ix = TO_INTEGER(x), iy = TO_INTEGER(y), iz = TO_INTEGER(z);
     const struct cell cell = {.x = x - TO_REAL(ix), .y = y - TO_REAL(iy), .z = z - TO_REAL(iz)};
     const struct indices at = spread_indices(voxel_index(part, ix, iy, iz PAGES_ARGUMENT));
@@ -186,10 +203,11 @@ INLINE void brick_differences(MEMORY_PARAMETERS, __constant struct part *part, r
         behind = outer_slice_u16(voxels + 2 * BRICK_SLICE, &at);
     }
 #endif
-    difference[0] = mix_lanes(first.along_x, second.along_x, cell.z);
-    difference[1] = mix_lanes(first.along_y, second.along_y, cell.z);
-    difference[2] = mix_lanes(change_across(&second, &before, &cell),
-                              change_across(&behind, &first, &cell), cell.z);
+    around->raw = mix_lanes(first.value, second.value, cell.z);
+    around->difference[0] = mix_lanes(first.along_x, second.along_x, cell.z);
+    around->difference[1] = mix_lanes(first.along_y, second.along_y, cell.z);
+    around->difference[2] = mix_lanes(change_across(&second, &before, &cell),
+                                      change_across(&behind, &first, &cell), cell.z);
 }
 #endif
 

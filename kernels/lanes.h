@@ -1,9 +1,9 @@
 // lanes.h - one ray per work-item, or a packet of 4, 8 or 16 rays, from the same source.
 //
-// A GPU runs work-items in lockstep by itself. A CPU does not, and PoCL does not vectorise a ray march
-// across work-items, so there each work-item carries a packet in OpenCL vector types. `real`, `integer` and
-// `mask` hold one value per lane. A mask is 0 or -1 in each lane, also when there is only one
-// (OpenCL's scalar comparisons give 1, its vector comparisons -1; MASK hides that).
+// A GPU runs work-items in lockstep by itself. A CPU does not, and PoCL does not vectorise a ray
+// march across work-items, so there each work-item carries a packet in OpenCL vector types. `real`,
+// `integer` and `mask` hold one value per lane. A mask is 0 or -1 in each lane, also when there is
+// only one (OpenCL's scalar comparisons give 1, its vector comparisons -1; MASK hides that).
 #ifndef LANES_H
 #define LANES_H
 
@@ -98,29 +98,28 @@ typedef LANES_JOIN(int, LANES) mask;
 #define lanes_as_int8 as_int8
 #define lanes_as_int16 as_int16
 
-// Oclgrind reads a scalar second operand of min and max on integers as if it were a vector, so both operands are of
-// one type everywhere.
+// Oclgrind reads a scalar second operand of min and max on integers as if it were a vector, so both
+// operands are of one type everywhere.
 
-// The built-in clamp has to care for NaN; where there is none, a comparison and a choice are one instruction.
+// The built-in clamp has to care for NaN; where there is none, a comparison and a choice are one
+// instruction.
 #define AT_LEAST(v, low) CHOOSE((v), (low), MASK((v) < (low)))
 #define AT_MOST(v, high) CHOOSE((v), (high), MASK((v) > (high)))
 
-// ALL_LANES(f): the vector of f(0), f(1) ... STORE_LANES(v, array): the way back, for loops over lanes.
+// ALL_LANES(f): the vector of f(0), f(1) ... STORE_LANES(v, array): the way back, for loops over
+// lanes. LOAD_LANES(array): the vector of what they have left there.
 #if LANES == 1
 #define ALL_LANES(f) f(0)
+#define STORE_LANES(v, array) (*(array) = (v))
+#define LOAD_LANES(array) (*(array))
 #else
 #define ALL_LANES(f) ((real)(LANE_NUMBERS(f)))
-#endif
-#if LANES == 4
-#define STORE_LANES(v, array) vstore4(v, 0, array)
-#elif LANES == 8
-#define STORE_LANES(v, array) vstore8(v, 0, array)
-#elif LANES == 16
-#define STORE_LANES(v, array) vstore16(v, 0, array)
+#define STORE_LANES(v, array) LANES_JOIN(vstore, LANES)(v, 0, array)
+#define LOAD_LANES(array) LANES_JOIN(vload, LANES)(0, array)
 #endif
 
-// True when any lane of a mask is set. The built-in any() costs 13 % of a frame through PoCL; a mask
-// narrowed to bytes is one or two words.
+// True when any lane of a mask is set. The built-in any() costs 13 % of a frame through PoCL; a
+// mask narrowed to bytes is one or two words.
 INLINE bool any_lane(mask m) {
 #if LANES == 1
     return m != 0;

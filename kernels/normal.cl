@@ -33,13 +33,10 @@ INLINE void make_unit(struct vector *v) {
     v->z *= scale;
 }
 
-// The normal at a place in memory coordinates, in world space. It points to lesser values, has
-// length 1, and less where the gradient is next to nothing. `*slope` is the gradient's length, in
-// ranges of the table per millimetre.
-INLINE struct vector find_normal(MEMORY_PARAMETERS, __constant struct part *part, real raw, real x,
-                                 real y, real z, real *slope) {
-    real difference[3];
-    find_differences(MEMORY_ARGUMENTS, part, raw, x, y, z, difference);
+// The normal in world space where values change by `difference` over two voxels. It points to lesser
+// values, has length 1, and less where the gradient is next to nothing. `*slope` is the gradient's
+// length, in ranges of the table per millimetre.
+INLINE struct vector make_normal(__constant struct part *part, real difference[3], real *slope) {
 #pragma unroll
     for (int axis = 0; axis < 3; axis++) {
         difference[axis] *= part->normal_scale;
@@ -62,6 +59,14 @@ INLINE struct vector find_normal(MEMORY_PARAMETERS, __constant struct part *part
     normal.y *= scale;
     normal.z *= scale;
     return normal;
+}
+
+// The normal at a place in memory coordinates, where the value is `raw`.
+INLINE struct vector find_normal(MEMORY_PARAMETERS, __constant struct part *part, real raw, real x,
+                                 real y, real z, real *slope) {
+    real difference[3];
+    find_differences(MEMORY_ARGUMENTS, part, raw, x, y, z, difference);
+    return make_normal(part, difference, slope);
 }
 
 // Where a lamp is as seen from a place on a ray.

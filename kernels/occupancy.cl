@@ -1,7 +1,7 @@
 // occupancy.cl - from a transfer function to the cells of a part in which something may be visible.
 //
-// The first pass compares each cell's range of values with the table: a count of visible entries up
-// to each one answers whether a range holds any with two look-ups. What the passes after it make of
+// The first pass compares each cell's range of values with the table: the first visible entry from
+// each one on answers with one look-up whether a range holds any. What the passes after it make of
 // that depends on the way to skip: distances.cl, nodes.cl, bricks.cl or bins.cl.
 //
 // Included by span.cl, because a program of their own would cost another half second of a cold
@@ -18,10 +18,10 @@ struct cell_dims {
     int x, y, z;
 };
 
-// The range of the values that samples in cells up to `reach` away from cell i may have. A cubic filter reads a voxel more on
-// each side, so its cells have a share in their neighbours; and Catmull & Rom's weights, whose
-// absolute values add up to at most 5/4 along an axis, lead out of the range of the voxels by at
-// most ((5/4)^3 - 1) / 2 of it on either side.
+// The range of the values that samples in cells up to `reach` away from cell i may have. A cubic
+// filter reads a voxel more on each side, so its cells have a share in their neighbours; and
+// Catmull & Rom's weights, whose absolute values add up to at most 5/4 along an axis, lead out of
+// the range of the voxels by at most ((5/4)^3 - 1) / 2 of it on either side.
 static float2 reachable(__constant struct part *part, __global const float2 *ranges,
                         struct cell_dims dims, int i, int reach) {
     reach += part->filter & FILTERS_CUBIC ? 1 : 0;
@@ -41,72 +41,134 @@ static float2 reachable(__constant struct part *part, __global const float2 *ran
 }
 
 #if MODELS & MODELS_ISO
-// Whether a surface of the part may lie in a cell with a range of values.
-static bool has_surface(__constant struct part *part, float2 range) {
+// The lanes in whose range of values a surface of the part may lie.
+static mask has_surface(__constant struct part *part, real low, real high) {
     __constant const float *values = (__constant const float *)&part->surface_values;
+    mask found = (mask)(0);
     for (int n = 0; n < part->surface_count; n++) {
-        const float slack = 1e-5f * (range.y - range.x + fabs(values[n]));
-        if (values[n] >= range.x - slack && values[n] <= range.y + slack)
-            return true;
+        const real slack = 1e-5f * (high - low + fabs(values[n]));
+        found |= MASK(values[n] >= low - slack) & MASK(values[n] <= high + slack);
     }
-    return false;
+    return found;
 }
 #endif
 
-// Whether something may be visible in a cell with a range of values. An extremum is moved by all values that it does not
-// outdo, and a mean by all.
-static bool occupied(__constant struct part *part, float2 range, __global const uint *counts,
+#define LOAD_VISIBLE(at) next[at]
+
+// The lanes in whose range of values something may be visible. An extremum is moved by all values
+// that it does not outdo, and a mean by all.
+static mask occupied(__constant struct part *part, real low, real high, __global const uint *next,
                      bool linear) {
     // A cell without any value has its ends the wrong way round.
-    if (range.x > range.y)
-        return false;
+    const mask some = MASK(low <= high);
 #if MODELS & MODELS_ISO
     if (part->model == MODEL_ISO)
-        return has_surface(part, range);
+        return some & has_surface(part, low, high);
 #endif
 #if MODELS & MODELS_PROJECTION
     if (part->model == MODEL_AVERAGE)
-        return true;
+        return some;
 #endif
-    const float a = range.x * part->table_scale + part->table_bias;
-    const float b = range.y * part->table_scale + part->table_bias;
     // Interpolation rounds; one value everywhere does not.
-    const float slack = range.x < range.y ? 1e-3f : 0.0f;
-    const float low = clamp(fmin(a, b) - slack, 0.0f, part->table_last);
-    const float high = clamp(fmax(a, b) + slack, 0.0f, part->table_last);
+    const real slack = CHOOSE((real)(0.0f), (real)(1e-3f), MASK(low < high));
+    const real a = CHOOSE((real)(0.0f), low, some) * part->table_scale + part->table_bias;
+    const real b = CHOOSE((real)(0.0f), high, some) * part->table_scale + part->table_bias;
     const bool between = linear && !part->table_nearest;
-    int first = between ? (int)low : (int)(low + 0.5f);
-    int last = between ? (int)ceil(high) : (int)(high + 0.5f);
+    const real nearest = (real)(between ? 0.0f : 0.5f), end = (real)(part->table_last);
+    const real least = AT_MOST(AT_LEAST(AT_MOST(a, b) - slack, 0.0f), end) + nearest;
+    const real most = AT_MOST(AT_LEAST(AT_LEAST(a, b) + slack, 0.0f), end) + nearest;
+    integer first = TO_INTEGER(least), last = TO_INTEGER(most);
+    if (between)
+        last = CHOOSE(last, last + 1, MASK(TO_REAL(last) < most));
 #if MODELS & MODELS_PROJECTION
     if (part->model == MODEL_MIP)
-        first = 0;
+        first = (integer)(0);
     if (part->model == MODEL_MINIP)
-        last = (int)part->table_last;
+        last = TO_INTEGER(end);
 #endif
-    return counts[last + 1] > counts[first];
+    // Cells in empty space are many, and often one look-up does for all.
+    if (LANES > 1 && (int)next[least_lane(first)] > -least_lane(-last))
+        return (mask)(0);
+    return some & MASK(GATHER(int, LOAD_VISIBLE, first) <= last);
 }
 
-// Whether something may be visible in cell i of a part's `count`; 0 when it may. There are many, so divisions are left to
-// those that need them.
-static uchar find_cell(__constant struct world *world, __constant struct part *part,
-                       __global const float2 *ranges, __global const uint *counts, uint count,
-                       int i, bool linear, uchar empty) {
-#if MASKED
-    if (mask_empties(world, part, ranges, i % part->cell_row, i % part->cell_slice / part->cell_row, i / part->cell_slice))
-        return empty;
+#define LOAD_LOW(at) ranges[at].x
+#define LOAD_HIGH(at) ranges[at].y
+#define LANE_NUMBER(lane) lane
+
+#if LANES > 1
+// PoCL makes a store for each element of vstore's bytes, wherever they are.
+typedef LANES_JOIN(uchar, LANES) loose_bytes __attribute__((aligned(1)));
 #endif
-    float2 range = ranges[part->ranges + i];
-#if FILTERS & FILTERS_CUBIC
-    if (part->filter & FILTERS_CUBIC) {
-        const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
-                                       (int)count / part->cell_slice};
-        range = reachable(part, ranges + part->ranges, dims, i, 0);
+
+// The ranges of values of LANES cells from cell `at` on, and those of the last one again behind a
+// part's `count`.
+INLINE void load_ranges(real *low, real *high, __global const float2 *ranges, int at, int count) {
+#if LANES > 1
+    if (at + LANES <= count) {
+        const real one = LANES_JOIN(vload, LANES)(0, (__global const float *)(ranges + at));
+        const real two = LANES_JOIN(vload, LANES)(1, (__global const float *)(ranges + at));
+        *low = (real)(one.even, two.even);
+        *high = (real)(one.odd, two.odd);
+        return;
     }
 #endif
-    return occupied(part, range, counts + part->visible, linear) ? 0 : empty;
+    const integer cell = min((integer)(LANE_NUMBERS(LANE_NUMBER)) + at, (integer)(count - 1));
+    *low = GATHER(float, LOAD_LOW, cell);
+    *high = GATHER(float, LOAD_HIGH, cell);
 }
 
-#if SKIP == SKIP_GRID || SKIP == SKIP_DISTANCE
+#if FILTERS & FILTERS_CUBIC
+// Likewise, where a cubic filter reaches into other cells.
+static void load_reachable(real *low, real *high, __constant struct part *part,
+                           __global const float2 *ranges, int at, int count) {
+    float lows[LANES], highs[LANES];
+    const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
+                                   count / part->cell_slice};
+    for (int lane = 0; lane < LANES; lane++) {
+        const float2 range = reachable(part, ranges, dims, min(at + lane, count - 1), 0);
+        lows[lane] = range.x;
+        highs[lane] = range.y;
+    }
+    *low = LOAD_LANES(lows);
+    *high = LOAD_LANES(highs);
+}
+#endif
+
+// Leaves 0 in those of LANES cells from cell `at` on, of a part's `count`, in which something may
+// be visible, else `empty`.
+static void find_cells(__constant struct world *world, __constant struct part *part,
+                       __global const float2 *values, __global const uint *next,
+                       __global uchar *out, int at, int count, bool linear, uint empty) {
+    real low, high;
+#if FILTERS & FILTERS_CUBIC
+    if (part->filter & FILTERS_CUBIC)
+        load_reachable(&low, &high, part, values + part->ranges, at, count);
+    else
+#endif
+        load_ranges(&low, &high, values + part->ranges, at, count);
+    const mask seen = occupied(part, low, high, next + part->visible, linear);
+    const integer found = CHOOSE((integer)((int)empty), (integer)(0), seen);
+#if LANES > 1 && !MASKED
+    if (at + LANES <= count) {
+        *(__global loose_bytes *)(out + at) = LANES_JOIN(convert_uchar, LANES)(found);
+        return;
+    }
+#endif
+    int cells[LANES];
+    STORE_LANES(found, cells);
+    for (int lane = 0; lane < LANES && at + lane < count; lane++) {
+#if MASKED
+        const int i = at + lane;
+        if (cells[lane] == 0 && mask_empties(world, part, values, i % part->cell_row,
+                                             i % part->cell_slice / part->cell_row, i / part->cell_slice))
+            cells[lane] = (int)empty;
+#endif
+        out[at + lane] = (uchar)cells[lane];
+    }
+}
+
+#if SKIP == SKIP_DISTANCE
 #include "distances.cl"
 #elif SKIP == SKIP_OCTREE
 #include "nodes.cl"
@@ -122,7 +184,8 @@ static uchar find_cell(__constant struct world *world, __constant struct part *p
 
 // One pass over the `count` cells of a part, from `in` to `out`, in which empty cells hold `empty`
 // at first. `linear` tells that the kernel interpolates between table entries. One kernel for all
-// passes, because each one more costs a cold start an eighth of a second.
+// passes that this way to skip needs, because each one more costs a cold start an eighth of a
+// second.
 __kernel void occupancy(__constant struct world *world, __global const float2 *ranges,
                         __global const uint *visible, __global const uchar *in, __global uchar *out,
                         const uint part_index, const uint count, const uint linear, const uint pass,
@@ -132,7 +195,9 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
         return;
     __constant struct part *part = &world->parts[part_index];
     if (pass == PASS_OCCUPY) {
-        out[part->cells + i] = find_cell(world, part, ranges, visible, count, (int)i, linear, (uchar)empty);
+        const int end = min((int)i * CELL_CHUNK + CELL_CHUNK, (int)count);
+        for (int at = (int)i * CELL_CHUNK; at < end; at += LANES)
+            find_cells(world, part, ranges, visible, out + part->cells, at, (int)count, linear, empty);
         return;
     }
     const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
@@ -156,19 +221,18 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     if (pass == PASS_VISIBLE)
         out[i] = visible_bins(part, visible + part->visible);
     else if (pass == PASS_CORNER)
-        out[i] = occupied(part, reachable(part, ranges + part->ranges, dims, 0, 0), visible + part->visible, linear);
-    else
+        out[i] = corner_visible(part, ranges + part->ranges, visible + part->visible, dims, linear);
+    else if (pass >= PASS_BINS)
         out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS), empty);
-#endif
-#if SKIP == SKIP_GRID || SKIP == SKIP_DISTANCE
-    spread(part, in, out, dims, (int)i, pass);
-#elif SKIP == SKIP_OCTREE
-    if (pass == PASS_NAME)
-        out[i] = name_node(part, in, dims, (int)i);
-    else
-        merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
 #elif SKIP == SKIP_BVH
     out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
+#elif SKIP == SKIP_OCTREE
+    if (pass == PASS_NAME)
+        name_nodes(part, in, out, dims, (int)i);
+    else
+        merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
+#elif SKIP == SKIP_DISTANCE
+    spread(in, out, dims, (int)i, (int)pass);
 #endif
 }
 

@@ -27,6 +27,7 @@ INLINE struct light packet_light(__constant struct world *world, TABLE_SPACE con
     counts[SAMPLES_POSSIBLE] += (uint)sum_lanes(crossing.possible);
     counts[SAMPLES_BEHIND] += (uint)sum_lanes(crossing.behind);
     counts[SAMPLES_SPARED] += SPARED(crossing);
+    counts[PARTS_ENTERED] += (uint)crossing.count;
 #if DEBUG
     light.r = debug_number(world, cells, &crossing, samples);
 #endif

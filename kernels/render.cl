@@ -11,6 +11,7 @@
 #include "order.cl"
 #include "pixel.cl"
 #include "shade.cl"
+#include "sight.cl"
 #include "span.cl"
 #include "style.cl"
 #if ADAPTIVE
@@ -47,6 +48,12 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
     struct active active;
     mask alive;
     integer i = begin_active(&active, crossing, &alive);
+#if MIXING != MIXING_ORDERED
+    integer last = active.last;
+#endif
+#if JOINS
+    integer until = active.until;
+#endif
 
 #if MODELS
     struct gathered gathered;
@@ -57,14 +64,17 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
 
     struct runs runs = runs_begin();
+    ulong expected = 0; // cursors whose last sample was seen, one bit each
     while (any_lane(alive)) {
 #if MIXING == MIXING_ORDERED
         const real place = order_nearest(crossing);
         alive &= MASK(place < NOWHERE);
         active.count = crossing->count;
 #elif CAPACITY > 1
-        if (any_lane(alive & MASK(REACH(i) >= active.until))) {
+        if (any_lane(alive & MASK(REACH(i) >= until))) {
             join_active(world, cells, &active, crossing, i, alive);
+            until = active.until;
+            last = active.last;
 #if MODELS
             gathered_meet(&gathered, crossing);
 #endif
@@ -113,47 +123,47 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
             *samples -= present;
             COUNT_SPARED(crossing, length, present);
-            const struct sample sample = sample_part(MEMORY_ARGUMENTS, part, x, y, z);
+            struct sight sight;
+            look(table, MEMORY_ARGUMENTS, part, x, y, z, &present, expected >> c & 1, &sight);
 #if MODELS
             if (part->model != MODEL_ABSORPTION) {
                 const struct spot spot = {part, cursor, c, i, present};
                 seen |= any_lane(gather(world, table, cells, MEMORY_ARGUMENTS, &gathered, crossing,
-                                        &light, &mixture, &sample, spot));
+                                        &light, &mixture, &sight.sample, spot));
                 continue;
             }
 #endif
-            const struct entry entry = find_entry(part, sample.raw, &present);
-            real strength = entry_strength(table, &entry);
-            const mask visible = present & MASK(strength > 0.0f);
 #if PROBE
-            log_sample(crossing, c, i, length, x, y, z, sample.raw, visible ? strength : 0, layer->a);
+            log_sample(crossing, c, i, length, x, y, z, sight.sample.raw,
+                       sight.visible ? sight.strength : 0, layer->a);
 #endif
-            if (!any_lane(visible)) {
+            expected &= ~(1UL << c);
+            if (!any_lane(sight.visible)) {
                 pass_over(part, cells, cursor, RUN_LAST(i, length), present);
                 continue;
             }
             seen = true;
+            expected |= 1UL << c;
 
             real r, g, b;
-            entry_colour(table, &entry, &r, &g, &b);
+            entry_colour(table, &sight.entry, &r, &g, &b);
 #if VOXELS & VOXELS_RGBA
             if (IS_CLASS(part, VOXELS_RGBA)) {
-                r = sample.r;
-                g = sample.g;
-                b = sample.b;
+                r = sight.sample.r;
+                g = sight.sample.g;
+                b = sight.sample.b;
             }
 #endif
 #if SHADING
             if (HAS_NORMALS(part))
                 style(FRAME_ARGUMENTS, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
-                      SAMPLE_NUMBER(crossing, c, t), x, y, z, CHOOSE(zero, sample.raw, visible),
-                      visible, &strength, &r, &g, &b);
+                      SAMPLE_NUMBER(crossing, c, t), x, y, z, &sight, &r, &g, &b);
 #endif
 #if PROBE
             log_colour(crossing, r, g, b);
 #endif
             mix_add(&mixture, layer, part, r, g, b,
-                    CHOOSE(zero, RUN_STRENGTH(strength, length), visible));
+                    CHOOSE(zero, RUN_STRENGTH(sight.strength, length), sight.visible));
         }
 
 #if MIXING == MIXING_ORDERED
@@ -172,7 +182,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
         } else {
             i = CHOOSE(i, leap(&active, crossing, i), alive);
         }
-        alive &= MASK(i < active.last);
+        alive &= MASK(i < last);
 #endif
     }
 #if MODELS & MODELS_PROJECTION
@@ -198,7 +208,6 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint packet = get_global_id(0) % packets_per_tile;
     const uint turn = get_global_id(0) / packets_per_tile + first_tile;
     const uint tile = EYES == EYES_BOTH ? turn / 2 : turn;
-    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
     // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that
     // high.
     const uint band = packet / (packets_per_row * GROUP_ROWS),
@@ -224,6 +233,7 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     }
     store_merged(world, picture, left, top, &first, &light);
 #else
+    const int eye = EYES == EYES_BOTH ? (int)(turn % 2) : 0;
     const struct ray ray = pixel_rays(world, eye, left, top RAY_ARGUMENTS);
     if (!any_lane(RAY_RUNS(&ray)))
         return;

@@ -4,24 +4,28 @@
 
 #include "gradient_opacity.cl"
 #include "shade.cl"
+#include "sight.cl"
 
 #if SHADING
-#if STYLE
-#define HAS_NORMALS(part) ((part)->shading != SHADING_NONE || (part)->styled)
-#else
-#define HAS_NORMALS(part) ((part)->shading != SHADING_NONE)
-#endif
-
-// Shades the straight colour of sample i in the lanes where it is visible, as shade does, and
-// scales its strength.
+// Shades the straight colour of what sample i at (x, y, z) shows, as shade does, in the lanes where
+// it is visible, and scales its strength.
 INLINE void style(FRAME_PARAMETERS, __constant struct part *part, MEMORY_PARAMETERS,
-                  const struct ray *ray, real t_first, real i, real x, real y, real z, real raw,
-                  mask where, real *strength, real *r, real *g, real *b) {
-    real slope;
-    const struct vector normal = find_normal(MEMORY_ARGUMENTS, part, raw, x, y, z, &slope);
+                  const struct ray *ray, real t_first, real i, real x, real y, real z,
+                  struct sight *sight, real *r, real *g, real *b) {
+    const mask where = sight->visible;
+    real difference[3], slope;
+#if BRICK_GRADIENT
+    if (LOOKS_AROUND(part)) {
+        for (int axis = 0; axis < 3; axis++)
+            difference[axis] = sight->around.difference[axis];
+    } else
+#endif
+        find_differences(MEMORY_ARGUMENTS, part, CHOOSE((real)(0.0f), sight->sample.raw, where), x,
+                         y, z, difference);
+    const struct vector normal = make_normal(part, difference, &slope);
 #if STYLE
     if (part->styled)
-        *strength = scale_strength(*strength, style_factor(part, ray, &normal, slope));
+        sight->strength = scale_strength(sight->strength, style_factor(part, ray, &normal, slope));
     if (part->shading == SHADING_NONE)
         return;
 #endif

@@ -31,10 +31,12 @@ struct split {
 static const struct pel_box nothing = {{INFINITY, INFINITY, INFINITY},
                                        {-INFINITY, -INFINITY, -INFINITY}};
 
+// By comparisons, because fminf and fmaxf have to care for NaN and are calls of libm, which were
+// half of the time.
 static void widen(struct pel_box *box, const struct pel_box *by) {
     for (int c = 0; c < 3; c++) {
-        box->low[c] = fminf(box->low[c], by->low[c]);
-        box->high[c] = fmaxf(box->high[c], by->high[c]);
+        box->low[c] = by->low[c] < box->low[c] ? by->low[c] : box->low[c];
+        box->high[c] = by->high[c] > box->high[c] ? by->high[c] : box->high[c];
     }
 }
 
@@ -154,7 +156,8 @@ static size_t divide(struct builder *builder, size_t first, size_t count, int de
         float span = middles->high[c] - middles->low[c];
         if (span > middles->high[longest] - middles->low[longest])
             longest = c;
-        if (!(span > 0))
+        // There is one way to part two.
+        if (!(span > 0) || count == 2)
             continue;
         struct split split = split_along(builder, first, count, middles, c);
         if (split.cost < best.cost)

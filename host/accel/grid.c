@@ -67,8 +67,8 @@ DEFINE_ROW(f32, float)
 
 static void merge(float (*into)[2], float (*from)[2], size_t count) {
     for (size_t i = 0; i < count; i++) {
-        into[i][0] = fminf(into[i][0], from[i][0]);
-        into[i][1] = fmaxf(into[i][1], from[i][1]);
+        into[i][0] = from[i][0] < into[i][0] ? from[i][0] : into[i][0];
+        into[i][1] = from[i][1] > into[i][1] ? from[i][1] : into[i][1];
     }
 }
 

@@ -48,7 +48,7 @@ static double place(double ms, const double scale[2]) {
 
 static void print_case(FILE *file, const struct bench_case *one, int y, const double scale[2]) {
     fprintf(file, "<text x=\"%d\" y=\"%d\" text-anchor=\"end\">", LABEL - 8, y + ROW - 5);
-    if (one->transfer[0])
+    if (one->transfer[0] && !strstr(one->name, one->transfer))
         fprintf(file, "%s ", one->transfer);
     print_text(file, one->name);
     if (one->volumes > 1)
@@ -62,7 +62,10 @@ static void print_case(FILE *file, const struct bench_case *one, int y, const do
     fprintf(file, "<rect x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"%d\" fill=\"#31688e\"/>\n",
             LABEL, y + 3, end - LABEL, ROW - 6);
     fprintf(file, "<path d=\"M%.1f %dH%.1f\" stroke=\"#222\"/>\n", low, y + ROW / 2, high);
-    fprintf(file, "<text x=\"%.1f\" y=\"%d\">%.3g ms</text>\n", fmax(end, high) + 6, y + ROW - 5,
+    fprintf(file, "<text x=\"%.1f\" y=\"%d\">%.*f ms</text>\n", fmax(end, high) + 6, y + ROW - 5,
+            ms >= 100  ? 0
+            : ms >= 10 ? 1
+                       : 2,
             ms);
 }
 

@@ -105,6 +105,8 @@ static void add_frame(json_t *object, const struct bench_case *one) {
     json_object_set_new(object, "skip_bytes", json_integer((json_int_t)statistics->skip_bytes));
     json_object_set_new(object, "samples_skipped",
                         json_integer((json_int_t)statistics->samples_skipped));
+    json_object_set_new(object, "boxes_entered",
+                        json_integer((json_int_t)statistics->boxes_entered));
     json_object_set_new(object, "rays", json_integer((json_int_t)statistics->rays));
     if (one->compute_units)
         json_object_set_new(object, "compute_units", json_integer(one->compute_units));

@@ -38,7 +38,7 @@ bool bench_read_skip(const char *text, unsigned *skips) {
 void bench_set_skip(struct bench_case *one, enum pel_skip skip) {
     one->sets_skip = true;
     one->skip = skip;
-    one->bricks = (struct pel_brick_settings){.size = 0};
+    one->bricks = one->scene->render.bricks; // such as a pool that the user's scene asks for
     one->detail = BENCH_SKIPPING;
 }
 

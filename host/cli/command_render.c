@@ -159,6 +159,8 @@ static int print_json(struct run *run) {
                         json_integer((json_int_t)statistics->samples_terminated));
     json_object_set_new(object, "samples_spared",
                         json_integer((json_int_t)statistics->samples_spared));
+    json_object_set_new(object, "boxes_entered",
+                        json_integer((json_int_t)statistics->boxes_entered));
     json_object_set_new(object, "device_bytes", json_integer((json_int_t)statistics->device_bytes));
     json_object_set_new(object, "uploaded_bytes",
                         json_integer((json_int_t)statistics->uploaded_bytes));

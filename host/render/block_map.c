@@ -131,7 +131,7 @@ static bool rebuild(struct pel_occupancy *occupancy, struct pel_device *device,
                pel_pass_run(occupancy, occupancy->cells, occupancy->cells, sub_blocks,
                             PASS_BINS + pel_pass_bits(world, settings->size));
     }
-    good = good && pel_buffer_read(occupancy->cells, 0, world->cell_count, bins);
+    good = good && pel_pass_read_bricks(occupancy, world, settings->size, bins);
     map->statistics.activity_ms = pel_clock_ms() - start_ms;
     good = good && build(map, device, world, bins, settings);
     free(bins);

@@ -20,6 +20,7 @@ void pel_counts_add(struct pel_buffer *buffer, const struct pel_tiling *tiling, 
                 taken += (*count)[SAMPLES_TAKEN];
                 statistics->samples_terminated += (*count)[SAMPLES_BEHIND];
                 statistics->samples_spared += (*count)[SAMPLES_SPARED];
+                statistics->boxes_entered += (*count)[PARTS_ENTERED];
                 possible += (*count)[SAMPLES_POSSIBLE];
             }
             statistics->stereo.eye_samples[turn % (size_t)eyes] += taken;

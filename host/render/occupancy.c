@@ -1,12 +1,14 @@
 // occupancy.c - which cells of each part may show something, derived on the device, and what a way
 // to skip makes of that.
 //
-// Nothing but counts of visible table entries is sent, so editing a transfer function costs two
+// Nothing but what is visible of tables is sent, so editing a transfer function costs one or two
 // look-ups a cell and a few passes over the cells (three for distances, and for an octree as much
-// as two and a seventh), and moving the camera or a volume costs nothing here. For `bvh` the
-// active bricks come back, a byte each, and are clustered here. Blocks stay as they are.
+// as one and a seventh) of the parts that show it, and moving the camera or a volume costs nothing
+// here. For `bvh` the active bricks come back, a byte each, and are clustered here. Blocks stay as
+// they are.
 #include "render/occupancy.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,14 +25,9 @@ static bool make_room(struct pel_occupancy *occupancy, struct pel_device *device
     pel_buffer_destroy(occupancy->scratch);
     occupancy->key.part_count = 0;
     occupancy->cell_count = cells;
-    occupancy->cells = pel_buffer_create(device, cells, "cells");
-    occupancy->scratch = pel_buffer_create(device, cells, "cells");
+    occupancy->cells = pel_buffer_create(device, cells + CELL_SLACK, "cells");
+    occupancy->scratch = pel_buffer_create(device, cells + CELL_SLACK, "cells");
     return occupancy->cells && occupancy->scratch;
-}
-
-// `grid` and `distance` go by the same cells.
-static enum pel_skip map_of(enum pel_skip skip) {
-    return skip == PEL_SKIP_GRID ? PEL_SKIP_DISTANCE : skip;
 }
 
 // Padding is cleared, so that keys can be compared byte by byte.
@@ -41,7 +38,7 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
     memcpy(&key->layout, layout, sizeof *layout);
     key->part_count = world->bytes.part_count;
     key->linear = world->table_linear;
-    key->skip = map_of(skip);
+    key->skip = skip;
     if (skip == PEL_SKIP_BVH || skip == PEL_SKIP_BLOCKS) {
         key->bricks.size = bricks->size;
         key->bricks.apart = bricks->apart;
@@ -77,12 +74,44 @@ static void make_key(struct pel_occupancy_key *key, const struct pel_world *worl
         key->masks = pel_mask_hash(world);
 }
 
+// Whether what a part shows by is on the device already.
+static bool same_words(const struct pel_mirror *mirror, const struct pel_world *world, u32 first,
+                       size_t count) {
+    size_t start = first * sizeof(u32), bytes = count * sizeof(u32);
+    return mirror->copy && start + bytes <= mirror->bytes &&
+           memcmp((const char *)mirror->copy + start, world->visible->words + first, bytes) == 0;
+}
+
+// Finds the parts whose cells must be derived anew; true when there are any.
+static bool find_dirty(struct pel_occupancy *occupancy, const struct pel_occupancy_key *key,
+                       const struct pel_world *world) {
+    const struct pel_occupancy_key *old = &occupancy->key;
+    bool all = memcmp(key, old, offsetof(struct pel_occupancy_key, parts)) != 0, any = false;
+    for (int p = 0; p < key->part_count; p++) {
+        const struct part *part = &world->bytes.parts[p];
+        size_t entries = (size_t)part->table_last + 1;
+        size_t variations = (size_t)(part->table_last * part->variation_scale + 1.5F);
+        occupancy->dirty[p] =
+            all || memcmp(&key->parts[p], &old->parts[p], sizeof *key->parts) != 0 ||
+            !same_words(&occupancy->visible, world, part->visible, entries + 1) ||
+            (world->adaptive && part->stride_max > 1 &&
+             !same_words(&occupancy->visible, world, part->variation, 2 * variations));
+        any = any || occupancy->dirty[p];
+    }
+    return any;
+}
+
+static size_t chunks(size_t cells) {
+    return (cells + CELL_CHUNK - 1) / CELL_CHUNK;
+}
+
 // The passes after the first: from `scratch`, which holds what is empty, to `cells`.
 static bool spread_distances(struct pel_occupancy *occupancy, const size_t cells[3]) {
     const struct pel_buffer *to = occupancy->cells, *from = occupancy->scratch;
-    return pel_pass_run(occupancy, from, to, cells[1] * cells[2], 0) &&
-           pel_pass_run(occupancy, to, from, cells[0] * cells[2], 1) &&
-           pel_pass_run(occupancy, from, to, cells[0] * cells[1], 2);
+    size_t rows = cells[1] * cells[2];
+    return pel_pass_run(occupancy, from, to, rows, PASS_ROW) &&
+           pel_pass_run(occupancy, to, from, rows, PASS_COLUMN) &&
+           pel_pass_run(occupancy, from, to, rows, PASS_SLICE);
 }
 
 // Joins empty nodes level by level up to the root, and tells every cell.
@@ -92,11 +121,11 @@ static bool grow_octree(struct pel_occupancy *occupancy, const size_t cells[3]) 
     for (uint32_t level = 1; good && (dims[0] > 1 || dims[1] > 1 || dims[2] > 1); level++) {
         for (int i = 0; i < 3; i++)
             dims[i] = (dims[i] + 1) / 2;
-        good = pel_pass_run(occupancy, occupancy->scratch, occupancy->scratch,
-                            dims[0] * dims[1] * dims[2], PASS_MERGE + level);
+        good = pel_pass_run(occupancy, occupancy->scratch, occupancy->scratch, dims[1] * dims[2],
+                            PASS_MERGE + level);
     }
     return good && pel_pass_run(occupancy, occupancy->scratch, occupancy->cells,
-                                cells[0] * cells[1] * cells[2], PASS_NAME);
+                                cells[1] * cells[2], PASS_NAME);
 }
 
 // Reduces the cells of part p to bricks, at the beginning of the part's cells.
@@ -108,7 +137,7 @@ static bool find_bricks(struct pel_occupancy *occupancy, const struct pel_world 
                         PASS_BRICK + pel_pass_bits(world, size));
 }
 
-// Finds the empty cells of all parts: in `scratch`.
+// Finds the empty cells of the dirty parts: in `scratch`.
 static bool occupy(struct pel_occupancy *occupancy, const struct pel_world *world,
                    const struct pel_buffer *world_buffer, const struct pel_residency *residency) {
     struct pel_kernel *kernel = occupancy->kernel;
@@ -120,8 +149,10 @@ static bool occupy(struct pel_occupancy *occupancy, const struct pel_world *worl
                 pel_kernel_set_u32(kernel, 9, tree ? 1 : CELL_DISTANCE_MAX);
     for (int p = 0; good && p < world->bytes.part_count; p++) {
         size_t cells[3], count;
-        good = pel_pass_set_part(occupancy, world, p, cells, &count) &&
-               pel_pass_run(occupancy, occupancy->cells, occupancy->scratch, count, PASS_OCCUPY);
+        if (occupancy->dirty[p])
+            good = pel_pass_set_part(occupancy, world, p, cells, &count) &&
+                   pel_pass_run(occupancy, occupancy->cells, occupancy->scratch, chunks(count),
+                                PASS_OCCUPY);
     }
     return good;
 }
@@ -164,6 +195,8 @@ static bool derive(struct pel_occupancy *occupancy, const struct pel_world *worl
     bool good = true;
     for (int p = 0; good && p < world->bytes.part_count; p++) {
         size_t cells[3], count;
+        if (!occupancy->dirty[p])
+            continue;
         good = pel_pass_set_part(occupancy, world, p, cells, &count);
         if (occupancy->key.skip == PEL_SKIP_OCTREE)
             good = good && grow_octree(occupancy, cells);
@@ -180,7 +213,7 @@ static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *
                             const struct pel_world *world, const struct pel_brick_settings *bricks,
                             double start_ms) {
     uint8_t *active = pel_allocate(world->cell_count, 1);
-    bool good = active && pel_buffer_read(occupancy->cells, 0, world->cell_count, active);
+    bool good = active && pel_pass_read_bricks(occupancy, world, bricks->size, active);
     double activity_ms = pel_clock_ms() - start_ms;
     good = good && pel_hierarchy_build(&occupancy->hierarchy, device, world, active, bricks);
     occupancy->hierarchy.statistics.activity_ms = activity_ms;
@@ -188,14 +221,15 @@ static bool build_hierarchy(struct pel_occupancy *occupancy, struct pel_device *
     return good;
 }
 
-// The kernel for the passes. One that has been compiled for more than is asked for is as good.
+// The kernel for the passes, one that knows how large cells are. One that has been compiled for
+// more than is asked for is as good.
 static bool find_kernel(struct pel_occupancy *occupancy, const struct pel_world *world,
                         const struct pel_kernel *render, enum pel_skip skip) {
     const struct pel_occupancy_text *has = &occupancy->text;
-    struct pel_occupancy_text asked = {map_of(skip), world->filters, world->models, world->masked,
-                                       world->adaptive};
+    struct pel_occupancy_text asked = {skip,        world->filters, world->models,
+                                       world->pool, world->masked,  world->adaptive};
     if (occupancy->kernel && has->skip == asked.skip && !(asked.filters & ~has->filters) &&
-        !(asked.models & ~has->models) && has->masks >= asked.masks &&
+        !(asked.models & ~has->models) && has->pool == asked.pool && has->masks >= asked.masks &&
         has->strides >= asked.strides)
         return true;
     pel_kernel_destroy(occupancy->kernel);
@@ -217,8 +251,10 @@ static bool find_strides(struct pel_occupancy *occupancy, struct pel_device *dev
     bool good = occupancy->strides != NULL;
     for (int p = 0; good && p < world->bytes.part_count; p++) {
         size_t cells[3], count;
-        good = pel_pass_set_part(occupancy, world, p, cells, &count) &&
-               pel_pass_run(occupancy, occupancy->cells, occupancy->strides, count, PASS_STRIDE);
+        if (occupancy->dirty[p])
+            good =
+                pel_pass_set_part(occupancy, world, p, cells, &count) &&
+                pel_pass_run(occupancy, occupancy->cells, occupancy->strides, count, PASS_STRIDE);
     }
     return good;
 }
@@ -245,11 +281,8 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
     if ((skip == PEL_SKIP_NONE && !world->pool && !world->adaptive) || world->bytes.part_count == 0)
         return make_room(occupancy, device, 1);
     double start_ms = pel_clock_ms();
-    bool changed = false;
     if (!find_kernel(occupancy, world, render, skip) ||
-        !make_room(occupancy, device, world->cell_count) ||
-        !pel_mirror_update_words(&occupancy->visible, device, world->visible, "visible entries",
-                                 &changed))
+        !make_room(occupancy, device, world->cell_count))
         return false;
     struct pel_brick_settings bricks = pel_bricks_resolve(&scene->render.bricks, skip);
     if (bricks.size < world->cell_side)
@@ -257,7 +290,13 @@ bool pel_occupancy_update(struct pel_occupancy *occupancy, struct pel_device *de
     struct pel_occupancy_key key;
     make_key(&key, world, &residency->layout, skip, &bricks);
     bool same = memcmp(&key, &occupancy->key, sizeof key) == 0;
-    if (!changed && same && (!world->pool || residency->pool.filled))
+    bool any = find_dirty(occupancy, &key, world);
+    if (!pel_mirror_update_words(&occupancy->visible, device, world->visible, "visible entries",
+                                 NULL)) {
+        occupancy->key.part_count = 0;
+        return false;
+    }
+    if (!any && (!world->pool || residency->pool.filled))
         return true;
     memcpy(&occupancy->key, &key, sizeof key);
     pel_hierarchy_finish(&occupancy->hierarchy);
@@ -287,9 +326,10 @@ struct pel_brick_statistics pel_occupancy_bricks(const struct pel_occupancy *occ
 }
 
 const struct pel_buffer *pel_occupancy_map(const struct pel_occupancy *occupancy) {
-    return occupancy->hierarchy.nodes ? occupancy->hierarchy.nodes
-           : occupancy->blocks.buffer ? occupancy->blocks.buffer
-                                      : occupancy->cells;
+    return occupancy->hierarchy.nodes             ? occupancy->hierarchy.nodes
+           : occupancy->blocks.buffer             ? occupancy->blocks.buffer
+           : occupancy->key.skip == PEL_SKIP_GRID ? occupancy->scratch
+                                                  : occupancy->cells;
 }
 
 void pel_occupancy_finish(struct pel_occupancy *occupancy) {

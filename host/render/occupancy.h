@@ -9,30 +9,31 @@
 #include "render/residency.h"
 #include "world/world.h"
 
-// What the cells depend on besides the counts of visible entries.
+// What the cells depend on besides the visible entries.
 struct pel_occupancy_key {
     struct pel_layout layout;
-    struct part parts[WORLD_PART_MAX]; // with only the members that matter filled in
     int part_count;
     bool linear;                      // tables are interpolated
     enum pel_skip skip;               // for which
     struct pel_brick_settings bricks; // of `bvh` and `blocks`
     uint64_t masks;                   // a hash of what masks select, and of where
     float stride_depth;               // 0: no strides
+    // The last member, with only what matters filled in: what is above is for all parts.
+    struct part parts[WORLD_PART_MAX];
 };
 
 // What kernels/occupancy.cl is compiled for.
 struct pel_occupancy_text {
     enum pel_skip skip;
     int filters, models; // FILTERS_* and MODELS_*
-    bool masks, strides;
+    bool pool, masks, strides;
 };
 
 // Zero-initialise.
 struct pel_occupancy {
     struct pel_kernel *kernel;
     struct pel_occupancy_text text; // what there is in its program
-    struct pel_mirror visible;      // counts of visible entries
+    struct pel_mirror visible;      // of each table, the first visible entry from each one on
     struct pel_buffer *cells,
         *scratch;               // a byte for each cell of each part, and room to work in
     size_t cell_count;          // room in both
@@ -41,6 +42,7 @@ struct pel_occupancy {
     struct pel_hierarchy hierarchy; // for `bvh`
     struct pel_block_map blocks;    // for `blocks`
     struct pel_occupancy_key key;   // what they are for; part_count 0 = nothing
+    bool dirty[WORLD_PART_MAX];     // parts that the present update derives anew
 };
 
 // Derives what `skip` (not AUTO) goes by for a world whose bytes are in `world_buffer`, unless it

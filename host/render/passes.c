@@ -23,6 +23,17 @@ bool pel_pass_run(struct pel_occupancy *occupancy, const struct pel_buffer *in,
            pel_kernel_launch(kernel, (items + group - 1) / group * group, group);
 }
 
+bool pel_pass_read_bricks(struct pel_occupancy *occupancy, const struct pel_world *world, int size,
+                          uint8_t *bricks) {
+    bool good = true;
+    for (int p = 0; good && p < world->bytes.part_count; p++) {
+        size_t dims[3], first = world->bytes.parts[p].cells;
+        good = pel_buffer_read(occupancy->cells, first, pel_hierarchy_bricks(world, p, size, dims),
+                               bricks + first);
+    }
+    return good;
+}
+
 uint32_t pel_pass_bits(const struct pel_world *world, int size) {
     uint32_t bits = 0;
     while (world->cell_side << bits < size)

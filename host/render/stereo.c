@@ -77,6 +77,7 @@ static void add_statistics(struct pel_render_statistics *sum,
     both.samples_skipped += sum->samples_skipped;
     both.samples_terminated += sum->samples_terminated;
     both.samples_spared += sum->samples_spared;
+    both.boxes_entered += sum->boxes_entered;
     both.rays += sum->rays;
     both.uploaded_bytes += sum->uploaded_bytes;
     both.prepare_ms += sum->prepare_ms;

@@ -17,7 +17,7 @@ static void forget(struct pel_memo_table *memo) {
     pel_transfer_destroy(memo->transfer);
     pel_table_finish(&memo->table);
     free(memo->words);
-    free(memo->counts);
+    free(memo->visible);
     *memo = (struct pel_memo_table){0};
 }
 
@@ -88,15 +88,18 @@ static bool write_strengths(struct pel_memo_table *memo, const struct pel_streng
     return true;
 }
 
-static bool write_counts(struct pel_memo_table *memo) {
-    memo->counts = pel_allocate(memo->seen_entries + 1, sizeof *memo->counts);
-    if (!memo->counts)
+// The first entry from each one on, and from behind them all, of which something can be seen; where
+// there is none, it is the one behind them all.
+static bool list_visible(struct pel_memo_table *memo) {
+    memo->visible = pel_allocate(memo->seen_entries + 1, sizeof *memo->visible);
+    if (!memo->visible)
         return false;
-    for (size_t i = 0; i < memo->seen_entries; i++) {
+    memo->visible[memo->seen_entries] = (u32)memo->seen_entries;
+    for (size_t i = memo->seen_entries; i-- > 0;) {
         float strength;
         memcpy(&strength, &memo->seen[PEL_STRENGTH_WORDS * i], sizeof strength);
         bool glows = memo->form.glows && memo->seen[PEL_STRENGTH_WORDS * i + 1] != 0;
-        memo->counts[i + 1] = memo->counts[i] + (strength > 0 || glows);
+        memo->visible[i] = strength > 0 || glows ? (u32)i : memo->visible[i + 1];
     }
     return true;
 }
@@ -107,8 +110,8 @@ bool pel_memo_write(struct pel_memo_table *memo, const struct pel_memo_form *for
         memo->form.glows == form->glows)
         return true;
     free(memo->words);
-    free(memo->counts);
-    memo->words = memo->counts = NULL;
+    free(memo->visible);
+    memo->words = memo->visible = NULL;
     memo->frame = 0;
     memo->shown.known = false;
     memo->form = *form;
@@ -116,7 +119,7 @@ bool pel_memo_write(struct pel_memo_table *memo, const struct pel_memo_form *for
     rule.depth = form->depth;
     bool good =
         rule.model == MODEL_PREINTEGRATED ? write_pairs(memo, &rule) : write_strengths(memo, &rule);
-    if (good && write_counts(memo))
+    if (good && list_visible(memo))
         return true;
     free(memo->words);
     memo->words = NULL;
@@ -125,8 +128,8 @@ bool pel_memo_write(struct pel_memo_table *memo, const struct pel_memo_form *for
 
 void pel_memo_begin(struct pel_memo *memo) {
     if (memo->frame++ == 0)
-        memo->words.version = memo->counts.version = 1;
-    memo->words.count = memo->counts.count = 0;
+        memo->words.version = memo->visible.version = 1;
+    memo->words.count = memo->visible.count = 0;
 }
 
 static bool make_room(struct pel_memo_words *words, size_t more) {
@@ -153,22 +156,23 @@ bool pel_memo_append(struct pel_memo_words *words, size_t count, u32 **added) {
 }
 
 bool pel_memo_place(struct pel_memo *memo, struct pel_memo_table *table) {
-    size_t words = table->entries * PEL_STRENGTH_WORDS, counts = table->seen_entries + 1;
-    size_t word_place = memo->words.count, count_place = memo->counts.count;
-    if (!make_room(&memo->words, words) || !make_room(&memo->counts, counts))
+    size_t words = table->entries * PEL_STRENGTH_WORDS, visible = table->seen_entries + 1;
+    size_t word_place = memo->words.count, visible_place = memo->visible.count;
+    if (!make_room(&memo->words, words) || !make_room(&memo->visible, visible))
         return false;
     // Since then only what lies before has been written, by the tables before this one.
     bool there = table->frame > 0 && table->frame == memo->frame - 1 &&
-                 table->word_place == word_place && table->count_place == count_place;
+                 table->word_place == word_place && table->visible_place == visible_place;
     if (!there) {
         memcpy(memo->words.words + word_place, table->words, words * sizeof *table->words);
-        memcpy(memo->counts.words + count_place, table->counts, counts * sizeof *table->counts);
+        memcpy(memo->visible.words + visible_place, table->visible,
+               visible * sizeof *table->visible);
         memo->words.version++;
-        memo->counts.version++;
+        memo->visible.version++;
     }
     table->frame = memo->frame;
     table->word_place = word_place;
-    table->count_place = count_place;
+    table->visible_place = visible_place;
     return true;
 }
 
@@ -176,6 +180,6 @@ void pel_memo_finish(struct pel_memo *memo) {
     for (int k = 0; k < PEL_VOLUME_MAX; k++)
         forget(&memo->tables[k]);
     free(memo->words.words);
-    free(memo->counts.words);
+    free(memo->visible.words);
     *memo = (struct pel_memo){0};
 }

@@ -1,7 +1,7 @@
 // memo.h - tables of transfer functions from the frame before, since making one takes as long as
 // hundreds of rays.
 //
-// All tables of a frame, and all counts of visible entries, lie one after the other. They stay
+// All tables of a frame, and all lists of visible entries, lie one after the other. They stay
 // where they are for the next frame, and what is the same and in the same place is not copied
 // again.
 #ifndef PEL_WORLD_MEMO_H
@@ -40,9 +40,9 @@ struct pel_memo_table {
     size_t entries;                // of them
     const u32 *seen;               // entries that tell which values can be seen: the words, or
     size_t seen_entries;           // those beside the words of pairs
-    u32 *counts;                   // owned; how many before each of these can be seen, one more
-    uint64_t frame;                // in which both were last put among those of all, from there on:
-    size_t word_place, count_place;
+    u32 *visible;   // owned; the first of these from each one on that can be seen, one more
+    uint64_t frame; // in which both were last put among those of all, from there on:
+    size_t word_place, visible_place;
     struct pel_memo_shown shown;
 };
 
@@ -55,7 +55,7 @@ struct pel_memo_words {
 
 struct pel_memo {
     struct pel_memo_table tables[PEL_VOLUME_MAX]; // by number of the instance
-    struct pel_memo_words words, counts;          // of all tables of this frame
+    struct pel_memo_words words, visible;         // of all tables of this frame
     uint64_t frame;                               // its number
 };
 
@@ -70,7 +70,7 @@ bool pel_memo_build(struct pel_memo_table *memo, const struct pel_transfer *tran
 // Writes its words, unless they are there already. False: MEMORY.
 bool pel_memo_write(struct pel_memo_table *memo, const struct pel_memo_form *form);
 
-// Puts the table's words and counts behind those of the tables before. False: MEMORY.
+// Puts the table's words and visible behind those of the tables before. False: MEMORY.
 bool pel_memo_place(struct pel_memo *memo, struct pel_memo_table *table);
 
 // Appends room for some words, to be written, and lets *added point there. False: MEMORY.

@@ -38,7 +38,7 @@ static double visible_share(const struct pel_scene *scene, const struct pel_worl
     const struct part *part = &world->bytes.parts[p];
     int instance = world->instances[p], volume = scene->instances[instance].volume;
     const struct pel_statistics *statistics = &scene->statistics[volume];
-    const u32 *counts = world->visible->words + part->visible;
+    const u32 *next = world->visible->words + part->visible;
     double nought = pel_world_value(scene, instance, reader, 0),
            one = pel_world_value(scene, instance, reader, 1);
     uint64_t seen = 0;
@@ -50,7 +50,7 @@ static double visible_share(const struct pel_scene *scene, const struct pel_worl
         double nearest = round(entry);
         entry = fabs(entry - nearest) < 1e-3 ? nearest : entry;
         entry = fmin(fmax(entry, 0), (double)part->table_last);
-        if (counts[(size_t)ceil(entry) + 1] > counts[(size_t)floor(entry)])
+        if (next[(size_t)floor(entry)] <= (u32)ceil(entry))
             seen += statistics->histogram[bin];
     }
     return statistics->count > 0 ? (double)seen / (double)statistics->count : 0;

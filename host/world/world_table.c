@@ -2,7 +2,7 @@
 // entry for what it reads.
 //
 // A table's words are those of world/strength.h; the tables of all instances lie one after the
-// other, and so do the counts of visible entries, one more than a table has entries.
+// other, and so do the visible of visible entries, one more than a table has entries.
 #include "world/world_table.h"
 
 #include "base/error.h"
@@ -39,7 +39,7 @@ bool pel_world_build_tables(struct pel_world *world, const struct pel_scene *sce
                             struct pel_memo *memo) {
     pel_memo_begin(memo);
     world->tables = &memo->words;
-    world->visible = &memo->counts;
+    world->visible = &memo->visible;
     for (int k = 0; k < scene->instance_count; k++) {
         const struct pel_instance *instance = &scene->instances[k];
         if (instance->hidden)
@@ -72,7 +72,7 @@ bool pel_world_add_table(struct pel_world *world, const struct pel_scene *scene,
     if (!pel_memo_write(table, &form) || !pel_memo_place(memo, table))
         return false;
     part->table = (u32)table->word_place;
-    part->visible = (u32)table->count_place;
+    part->visible = (u32)table->visible_place;
     int last = pairs ? PAIR_ENTRIES - 1 : (int)table->entries - 2;
     fill_table_address(part, scene->volumes[instance->volume], &ends, last, layout->reader);
     return true;

@@ -61,8 +61,7 @@ INLINE void light_behind(struct light *light, const struct light *layer) {
 
 // Remembers the parts that the packet has come to since it was asked last.
 INLINE void gathered_meet(struct gathered *gathered, const struct crossing *crossing) {
-    for (; gathered->met < COUNTED(crossing->count); gathered->met++) {
-        const int c = CAPACITY == 1 ? 0 : gathered->met;
+    for (int c = gathered->met; c < COUNTED(crossing->count); c++) {
 #if MODELS_SEGMENT
         gathered->raw[c] = (real)(0.0f);
         gathered->at[c] = (integer)(-2);
@@ -77,6 +76,7 @@ INLINE void gathered_meet(struct gathered *gathered, const struct crossing *cros
 #endif
 #endif
     }
+    gathered->met = COUNTED(crossing->count);
 }
 
 INLINE void gathered_begin(struct gathered *gathered, const struct crossing *crossing) {

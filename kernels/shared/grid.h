@@ -2,8 +2,9 @@
 //
 // A cell has CELL_VOXELS voxels along a side, or those of a brick where bricks come from a pool.
 //
-// Cell (x,y,z) is for sample positions CELL_VOXELS * x <= p < CELL_VOXELS * (x + 1) in memory coordinates (and so
-// on), whose interpolation needs the voxels CELL_VOXELS * x .. CELL_VOXELS * (x + 1), both included.
+// Cell (x,y,z) is for sample positions CELL_VOXELS * x <= p < CELL_VOXELS * (x + 1) in memory
+// coordinates (and so on), whose interpolation needs the voxels CELL_VOXELS * x ..
+// CELL_VOXELS * (x + 1), both included.
 #ifndef SHARED_GRID_H
 #define SHARED_GRID_H
 
@@ -17,18 +18,31 @@
 #define CELL_VOXELS (1 << CELL_BITS)
 
 // No distance is larger than this, in cells.
-#define CELL_DISTANCE_MAX 63
+#define CELL_DISTANCE_MAX 31
 
-// Which pass over the cells finds the empty ones; 0, 1 and 2 spread distances along x, y and z. For an octree, pass
-// PASS_MERGE + l joins eight empty nodes of level l - 1 to one of level l, in the node's first cell, and PASS_NAME tells
-// every cell of the largest node that it lies in. Pass PASS_BRICK + b finds the bricks of 2^b cells along a side, one
-// after the other, in which some cell is not empty.
+// Bytes behind all cells that may be read with the last of them.
+#define CELL_SLACK 15
+
+// Cells of which one work-item finds out whether they are empty.
+#define CELL_CHUNK 16
+
+// Which pass over the cells finds the empty ones, PASS_OCCUPY, by CELL_CHUNK a work-item. PASS_ROW,
+// PASS_COLUMN and PASS_SLICE spread distances along x, y and z. For an octree, pass PASS_MERGE + l
+// joins eight empty nodes of the level below to one of level l, in the node's first cell, and
+// PASS_NAME tells every cell of the largest node that it lies in. Each row of cells, or of nodes,
+// is one work-item's. Pass PASS_BRICK + b finds the bricks of 2^b cells along a side, one after the
+// other, in which some cell is not empty.
 //
-// For blocks (shared/block.h), PASS_VISIBLE finds the bins of the table of which something can be seen and PASS_CORNER
-// whether the value around the part's first corner can, each in one byte; PASS_BINS + b, the bins that the values of each
-// such brick touch; and PASS_SEEN keeps those of the stored sub-blocks in which some cell is not empty.
+// For blocks (shared/block.h), PASS_VISIBLE finds the bins of the table of which something can be
+// seen and PASS_CORNER whether the value around the part's first corner can, each in one byte;
+// PASS_BINS + b, the bins that the values of each such brick touch; and PASS_SEEN keeps those of
+// the stored sub-blocks in which some cell is not empty.
 //
-// PASS_STRIDE finds how long a run of samples may be that begins in each cell (kernels/stride_cells.cl).
+// PASS_STRIDE finds how long a run of samples may be that begins in each cell
+// (kernels/stride_cells.cl).
+#define PASS_ROW 0
+#define PASS_COLUMN 1
+#define PASS_SLICE 2
 #define PASS_OCCUPY 3
 #define PASS_NAME 4
 #define PASS_VISIBLE 5

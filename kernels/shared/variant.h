@@ -116,7 +116,8 @@
 #define SAMPLES_POSSIBLE 1 // all those inside a part
 #define SAMPLES_BEHIND 2   // of these, those behind the end of a ray that ended early
 #define SAMPLES_SPARED 3   // and those that others stand for, in longer strides
-#define SAMPLE_COUNTS 4
+#define PARTS_ENTERED 4    // and parts that the packet came to
+#define SAMPLE_COUNTS 5
 
 // Pixels along a side of the square tiles in which work is handed out.
 #define TILE_PX 16

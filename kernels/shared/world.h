@@ -66,7 +66,7 @@ struct part {
     u32 cells;                  // index of the part's first cell (shared/grid.h)
     i32 cell_row, cell_slice;   // cells from one row and slice of them to the next
     u32 ranges;                 // index of the first cell's range of values
-    u32 visible;                // index of the table's first count of visible entries
+    u32 visible;                // index of the first of the visible entries from each one on
     float normal_scale;         // from a difference over two voxels to ranges of the table per voxel, negative
     float spacing_mm;           // of the nearest voxels
     i32 shading;                // one of SHADING_*

@@ -105,6 +105,9 @@ check_lines skip.json '[c["bricks"]["size"] for c in x[27:37]] == [8, 8, 16, 16,
 check_lines skip.json '[c["name"] for c in x[37:41]] == ["task T1, blocks " + n for n in ("searched", "searched, culled", "walked", "walked, culled")]'
 expect 0 '' bench scene.json --skip all --frames 1 --size 16x12 --json -
 check_lines out '[c["skip"] for c in x][:6] == ["none", "grid", "octree", "distance", "bvh", "blocks"] and len(x) == 7'
+echo '{"volumes": [{"generate": {"kind": "box", "size": 12}}], "render": {"bricks": {"size": 32}}}' >bricks.json
+expect 0 '' bench bricks.json --skip bvh --frames 1 --size 16x12 --json -
+check_lines out '[c["bricks"]["size"] for c in x] == [32]'
 
 # How time grows, on parts of a device that can be divided, too; what an edit sends and derives.
 expect 0 '^\| .* overlapping ' bench scaling --largest 16 --size 16x12 --frames 1 --json scaling.json

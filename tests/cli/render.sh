@@ -52,11 +52,14 @@ png deep.png 'depth == 16 and "left" in texts["scene"] and "0.25" in texts["scen
 expect 0 '' render data/box.nii.gz "${small[@]}" --camera eye=0,-200,0,target=0,0,0,fov=30 -o eye.png
 png eye.png '__import__("json").loads(texts["camera"])["eye"] == [0, -200, 0]'
 png eye.png '__import__("json").loads(texts["camera"])["fov"] == 30'
-for option in '--mix over' '--filter nearest' '--termination 1' '--phase 0.25' '--density 0.5' '--background white' \
-    '--background 0.1,0.2,0.3' '--background #102030' '--transfer viridis' '--alpha premultiplied' '--reader buffer' \
-    '--shading' '--shading=off' '--shading=model=phong,ambient=0.2,shininess=30' '--lanes 4' '--lanes 1' \
-    '--shading --shadows' '--shading --shadows=length=9,strength=0.5 --ambient-occlusion=directions=2,radius=4,step=3' \
-    '--shadows=off --ambient-occlusion' '--lod auto' '--lod 1' '--work-group 1' '--set camera.fov=20' '--quiet' \
+# Those that need a kernel of their own go together.
+for option in '--mix over --filter nearest --lanes 4' '--termination 1 --phase 0.25 --density 0.5' \
+    '--background white' '--background 0.1,0.2,0.3' '--background #102030' '--transfer viridis' '--alpha premultiplied' \
+    '--reader buffer' '--shading' '--shading=off' '--shading=model=phong,ambient=0.2,shininess=30 --shadows=off' \
+    '--lanes 1 --work-group 1' \
+    '--shading --shadows --ambient-occlusion=directions=2,radius=4,step=3' \
+    '--shading --shadows=length=9,strength=0.5 --ambient-occlusion' '--lod auto' '--lod 1' '--set camera.fov=20' \
+    '--quiet' \
     '--supersample 2 --supersample-pattern n-rooks --supersample-filter gaussian --seed 3 --jitter'; do
     # shellcheck disable=SC2086
     expect 0 '' render data/box.nii.gz data/sphere.nrrd "${small[@]}" $option -o option.png

@@ -33,18 +33,18 @@ static void compare_with_alone(struct pel_renderer *renderer, struct pel_scene *
         PEL_STEREO_TWO_FILES,    PEL_STEREO_ROW_INTERLACED, PEL_STEREO_COLOUR_RED_CYAN,
         PEL_STEREO_CHECKERBOARD, PEL_STEREO_SIDE_BY_SIDE,   PEL_STEREO_COLUMN_INTERLACED,
         PEL_STEREO_TOP_BOTTOM};
+    struct pel_image *alone[2] = {render_alone(renderer, scene, 0),
+                                  render_alone(renderer, scene, 1)};
     for (size_t k = 0; k < kind_count; k++) {
         scene->stereo.kind = kinds[k];
-        struct pel_image *alone[2] = {render_alone(renderer, scene, 0),
-                                      render_alone(renderer, scene, 1)};
         struct pel_image *expected = pel_stereo_compose(&scene->stereo, alone[0], alone[1]);
         assert_non_null(expected);
         struct pel_image *picture = render_picture(renderer, scene, NULL);
         judge_composed(picture, expected, kinds[k], what);
         pel_image_destroy(picture);
         pel_image_destroy(expected);
-        destroy_eyes(alone);
     }
+    destroy_eyes(alone);
 }
 
 static void test_one_launch(void **state) {

@@ -30,7 +30,7 @@ static struct pel_scene *scene_of_box(struct pel_volume *layers) {
     scene_add(scene, volume, scene_transfer_constant(red));
     scene_add(scene, layers, scene_transfer_constant(red))->hidden = true;
     scene->instances[0].mask = (struct pel_mask){.instance = 1, .range_count = 1};
-    scene->render.step = 0.25;
+    scene->render.step = scene_is_small() ? 1 : 0.25;
     return scene;
 }
 

@@ -29,10 +29,11 @@ static void try_seed(struct pel_renderer *renderers[RENDERERS], uint64_t seed) {
 
 static void test_seeds(void **state) {
     (void)state;
+    bool all = getenv("PELLUCID_TEST_ALL") != NULL;
     bool given = getenv("PELLUCID_TEST_SEED") != NULL;
     uint64_t first = number_from("PELLUCID_TEST_SEED", 1);
-    uint64_t count = number_from("PELLUCID_TEST_COUNT", scene_is_small() ? 8 : 12);
-    uint64_t fresh = (uint64_t)time(NULL), fresh_count = given ? 0 : scene_is_small() ? 2 : 4;
+    uint64_t count = number_from("PELLUCID_TEST_COUNT", all ? 12 : scene_is_small() ? 6 : 9);
+    uint64_t fresh = (uint64_t)time(NULL), fresh_count = given ? 0 : scene_is_small() ? 2 : 3;
     print_message("seeds %llu to %llu, and %llu from %llu on\n", (unsigned long long)first,
                   (unsigned long long)(first + count - 1), (unsigned long long)fresh_count,
                   (unsigned long long)fresh);

@@ -20,7 +20,7 @@ static int is_scene(const struct dirent *entry) {
 static struct pel_scene *load_small(const char *name) {
     char path[1024];
     snprintf(path, sizeof path, "%s/scenes/%s", TEST_SOURCE, name);
-    const char *small[] = {"render.size=[16,12]", "render.step=1", "volumes.*.generate.size=12",
+    const char *small[] = {"render.size=[12,9]", "render.step=1", "volumes.*.generate.size=12",
                            "volumes.*.generate.spacing=4"};
     // Volumes with a spacing of their own keep their size in millimetres.
     int small_count = strstr(name, "level-of-detail") ? 4 : 3;

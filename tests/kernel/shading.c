@@ -86,13 +86,16 @@ static void check_variant(enum pel_reader reader, int lanes, int start, int stri
 }
 
 // Every variant of the reader sees another few of the scenes: building kernels takes the time here.
+// A compiler to which wide packets are a burden sees one scene in one of four.
 static void test_variants(void **state) {
     (void)state;
     check_variant(PEL_READER_BUFFER, 1, 1, 14);
+    check_variant(PEL_READER_IMAGE, 1, 5, 12);
     check_variant(PEL_READER_BUFFER, 4, 18, 14);
+    if (judge_packet_lanes() < 8)
+        return;
     check_variant(PEL_READER_BUFFER, 8, 8, 24);
     check_variant(PEL_READER_BUFFER, 16, 24, 24);
-    check_variant(PEL_READER_IMAGE, 1, 5, 12);
     check_variant(PEL_READER_IMAGE, 4, 21, 24);
 }
 

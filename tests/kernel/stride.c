@@ -37,7 +37,7 @@ static void test_lengths(void **state) {
     scene_add(scene, scene_volume_constant((int[]){31, 29, 33}, PEL_VOXEL_U8, 200),
               scene_transfer_constant(colour));
     scene->render.step_mm = 0.5;
-    for (int n = 0; n < 8; n++) {
+    for (int n = 0; n < 8; n += scene_is_small() ? 3 : 1) {
         struct pel_render_statistics even, strided;
         // A plane ends the box a step earlier each time.
         scene->clips[0] = (struct pel_clip){.point = {0, 0, -10 + 0.5 * n}, .normal = {0, 0, 1}};

@@ -10,7 +10,9 @@
 #include "support/test.h"
 
 // Few variants of the kernel, because building one takes longer than rendering all these pictures.
-enum { PACKET = 4 };
+static int packet(void) {
+    return judge_lanes(4);
+}
 
 enum { WIDTH = 20, HEIGHT = 10, EDGE_COLUMN = 12, PATTERNS = PEL_PATTERN_HAMMERSLEY + 1 };
 
@@ -54,13 +56,13 @@ static void test_every_pattern_is_the_reference(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_two();
     scene->render.supersampling.seed = 5;
-    for (int lanes = 1; lanes <= PACKET; lanes *= PACKET) {
+    for (int lanes = 1; lanes <= packet(); lanes *= 4) {
         struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, lanes);
         for (int n = 0; n < PATTERNS * 2; n++) {
             scene->render.supersampling.pattern = (enum pel_pattern)(n / 2);
             scene->render.supersampling.filter = (enum pel_reconstruction)(n & 1);
             scene->render.supersampling.n = scene_is_small() ? 2 : 1 + n % 3;
-            scene->render.jitter = lanes > 1 && n % 4 == 3;
+            scene->render.jitter = lanes == packet() && n % 4 == 3;
             char title[64];
             snprintf(title, sizeof title, "pattern %d, filter %d, %d lanes", n / 2, n & 1, lanes);
             pel_image_destroy(judge_render(renderer, scene, NULL, title));
@@ -75,7 +77,7 @@ static void test_adaptive_is_the_reference(void **state) {
     struct pel_scene *scene = scene_of_two();
     scene->render.supersampling = (struct pel_supersampling){
         .n = 2, .pattern = PEL_PATTERN_MULTI_JITTERED, .seed = 3, .adaptive = 0.15};
-    for (int lanes = 1; lanes <= PACKET; lanes *= PACKET) {
+    for (int lanes = 1; lanes <= packet(); lanes *= 4) {
         struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, lanes);
         for (int filter = 0; filter < 2; filter++) {
             scene->render.supersampling.filter = (enum pel_reconstruction)filter;
@@ -106,8 +108,8 @@ static void test_an_edge_is_its_coverage(void **state) {
     (void)state;
     const double covered = 0.3;
     struct pel_scene *scene = scene_of_edge(covered);
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, PACKET);
-    for (int n = 2; n <= (scene_is_small() ? 3 : 8); n++) {
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, packet());
+    for (int n = 2; n <= (scene_is_small() ? 2 : 8); n++) {
         for (int pattern = 0; pattern < PATTERNS; pattern++) {
             scene->render.supersampling.n = n;
             scene->render.supersampling.pattern = (enum pel_pattern)pattern;
@@ -129,7 +131,7 @@ static void test_an_edge_is_its_coverage(void **state) {
 static void test_an_edge_is_its_gaussian(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_edge(0.5);
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, PACKET);
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, packet());
     scene->render.supersampling = (struct pel_supersampling){.n = scene_is_small() ? 4 : 8,
                                                              .pattern = PEL_PATTERN_HAMMERSLEY,
                                                              .filter = PEL_RECONSTRUCTION_GAUSSIAN};
@@ -152,7 +154,7 @@ static void test_an_edge_is_its_gaussian(void **state) {
 static void test_more_rays_converge(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_two();
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, PACKET);
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, packet());
     struct pel_supersampling *supersampling = &scene->render.supersampling;
     *supersampling = (struct pel_supersampling){.n = 8, .pattern = PEL_PATTERN_HAMMERSLEY};
     struct pel_image *truth = render_picture(renderer, scene, NULL);
@@ -179,7 +181,7 @@ static void test_more_rays_converge(void **state) {
 static void test_seeds(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_two();
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, PACKET);
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, packet());
     for (int pattern = 0; pattern <= PATTERNS; pattern++) {
         bool jitter = pattern == PATTERNS;
         bool fixed = pattern == PEL_PATTERN_REGULAR || pattern == PEL_PATTERN_HAMMERSLEY;
@@ -204,7 +206,7 @@ static void test_seeds(void **state) {
 static void test_adaptive_counts(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_edge(0.3);
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, PACKET);
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, packet());
     struct pel_supersampling *supersampling = &scene->render.supersampling;
     struct pel_render_statistics statistics;
     uint64_t pixels = WIDTH * HEIGHT;
@@ -245,7 +247,7 @@ static void test_adaptive_counts(void **state) {
 static void test_one_centred_ray_is_plain(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_two();
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, PACKET);
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, packet());
     struct pel_image *plain = render_picture(renderer, scene, NULL);
     scene->render.supersampling.n = 1;
     for (int pattern = 0; pattern < PATTERNS; pattern++) {
@@ -263,7 +265,7 @@ static void test_one_centred_ray_is_plain(void **state) {
 static void test_bad_settings(void **state) {
     (void)state;
     struct pel_scene *scene = scene_of_edge(0.5);
-    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, PACKET);
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, packet());
     static const struct pel_supersampling bad[] = {{.n = 9},
                                                    {.n = -1},
                                                    {.adaptive = -1},

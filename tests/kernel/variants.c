@@ -112,7 +112,7 @@ static void add_pair(struct pel_scene *scene, enum pel_voxel_type type, const st
 
 static struct pel_scene *scene_of(const struct choice *choice, int set, int turn) {
     bool small = scene_is_small();
-    struct pel_scene *scene = scene_create(small ? 16 : 48, small ? 12 : 36);
+    struct pel_scene *scene = scene_create(small ? 10 : 48, small ? 8 : 36);
     scene->render.mixing = choice->mixing;
     scene->render.origin = choice->origin;
     scene->render.skip = choice->skip;

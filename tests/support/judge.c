@@ -178,3 +178,7 @@ int judge_packet_lanes(void) {
     const char *lanes = getenv("PELLUCID_TEST_LANES");
     return lanes ? atoi(lanes) : 16;
 }
+
+int judge_lanes(int lanes) {
+    return lanes < judge_packet_lanes() ? lanes : judge_packet_lanes();
+}

@@ -38,6 +38,9 @@ bool judge_has_images(struct pel_renderer *renderer, const struct pel_scene *sce
 // (support/on).
 int judge_packet_lanes(void);
 
+// Those lanes, or as many as its compiler takes in its stride.
+int judge_lanes(int lanes);
+
 // Fails the test unless a picture of both eyes is the one that pel_stereo_compose has made of them:
 // bit for bit, and as an anaglyph, which the device works out, within 1e-5.
 void judge_composed(const struct pel_image *picture, const struct pel_image *composed,
