@@ -137,7 +137,7 @@ static void load_reachable(real *low, real *high, __constant struct part *part,
 
 // Leaves 0 in those of LANES cells from cell `at` on, of a part's `count`, in which something may
 // be visible, else `empty`.
-static void find_cells(__constant struct world *world, __constant struct part *part,
+OUTLINE void find_cells(__constant struct world *world, __constant struct part *part,
                        __global const float2 *values, __global const uint *next,
                        __global uchar *out, int at, int count, bool linear, uint empty) {
     real low, high;
