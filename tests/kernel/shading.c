@@ -79,7 +79,8 @@ static void check_variant(enum pel_reader reader, int lanes, int start, int stri
         char title[64];
         snprintf(title, sizeof title, "%s x %d: shaded scene %d",
                  reader == PEL_READER_IMAGE ? "image" : "buffer", lanes, n);
-        pel_image_destroy(judge_render(renderer, scene, NULL, title));
+        if (reader == PEL_READER_BUFFER || judge_has_images(renderer, scene))
+            pel_image_destroy(judge_render(renderer, scene, NULL, title));
         pel_scene_destroy(scene);
     }
     pel_renderer_destroy(renderer);
