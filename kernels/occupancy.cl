@@ -52,7 +52,7 @@ static mask has_surface(__constant struct part *part, real low, real high) {
 }
 #endif
 
-#define LOAD_VISIBLE(at) next[at]
+#define LOAD_VISIBLE(at) (int)next[at]
 
 // The lanes in whose range of values something may be visible. An extremum is moved by all values
 // that it does not outdo, and a mean by all.
@@ -199,13 +199,15 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
             find_cells(world, part, ranges, visible, out + part->cells, at, (int)count, linear, empty);
         return;
     }
+#if SKIP > SKIP_GRID || ADAPTIVE
     const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
                                    (int)count / part->cell_slice};
-    in += part->cells;
+    __global const uchar *cells = in + part->cells;
+#endif
 #if SKIP == SKIP_BLOCKS
     // `empty` says how large a sub-block is, or that no data are to be stored as well.
     if (pass == PASS_SEEN) {
-        keep_seen(part, in, out, dims, (int)i, (int)empty);
+        keep_seen(part, cells, out, dims, (int)i, (int)empty);
         return;
     }
 #endif
@@ -224,14 +226,14 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     else if (pass >= PASS_BINS)
         out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS), empty);
 #elif SKIP == SKIP_BVH
-    out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
+    out[i] = find_brick(part, cells, dims, (int)i, (int)(pass - PASS_BRICK));
 #elif SKIP == SKIP_OCTREE
     if (pass == PASS_NAME)
-        name_nodes(part, in, out, dims, (int)i);
+        name_nodes(part, cells, out, dims, (int)i);
     else
         merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
 #elif SKIP == SKIP_DISTANCE
-    spread(in, out, dims, (int)i, (int)pass);
+    spread(cells, out, dims, (int)i, (int)pass);
 #endif
 }
 
