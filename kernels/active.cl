@@ -60,8 +60,8 @@ INLINE void join_part(__constant struct world *world, __global const uchar *cell
 
 // Adds the parts that some ray has come to at its sample i. It is rarely called, and inside the ray
 // loop it would take registers from samples (4 to 9 % of a frame).
-static __attribute__((noinline)) void join_active(__constant struct world *world, __global const uchar *cells,
-                        struct active *active, struct crossing *crossing, integer i, mask alive) {
+OUTLINE void join_active(__constant struct world *world, __global const uchar *cells, struct active *active,
+                         struct crossing *crossing, integer i, mask alive) {
     struct ahead *ahead = &crossing->ahead;
     active->until = (integer)(SAMPLE_NEVER);
     while (ahead->count > 0) {

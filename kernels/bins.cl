@@ -57,14 +57,14 @@ static uchar find_bins(__constant struct part *part, __global const float2 *rang
               front = i / columns / rows << bits;
     const int right = min(left + size, dims.x), bottom = min(top + size, dims.y),
               back = min(front + size, dims.z);
-    const float2 corner = reachable(part, ranges, dims, 0, 0);
+    const float2 corner = reachable(part, ranges, dims, 0);
     bool data = whole;
     uint bins = 0;
     for (int z = front; z < back; z++)
         for (int y = top; y < bottom; y++)
             for (int x = left; x < right; x++) {
                 const float2 range = reachable(part, ranges, dims,
-                                               z * part->cell_slice + y * part->cell_row + x, 0);
+                                               z * part->cell_slice + y * part->cell_row + x);
                 if (range.x > range.y)
                     continue;
                 const float a = range.x * part->table_scale + part->table_bias;
@@ -93,7 +93,7 @@ static void keep_seen(__constant struct part *part, __global const uchar *cells,
 // Whether the value around a part's first corner can be seen.
 static uchar corner_visible(__constant struct part *part, __global const float2 *ranges,
                             __global const uint *next, struct cell_dims dims, bool linear) {
-    const float2 range = reachable(part, ranges, dims, 0, 0);
+    const float2 range = reachable(part, ranges, dims, 0);
     return any_lane(occupied(part, (real)(range.x), (real)(range.y), next, linear));
 }
 

@@ -20,7 +20,7 @@
 typedef uchar16 loose_cells __attribute__((aligned(1)));
 
 // Stores 16 cells of a row, or all of a shorter one.
-static void store_cells(uchar16 cells, __global uchar *out, int width) {
+OUTLINE void store_cells(uchar16 cells, __global uchar *out, int width) {
     if (width >= 16) {
         *(__global loose_cells *)out = cells;
         return;
@@ -33,7 +33,7 @@ static void store_cells(uchar16 cells, __global uchar *out, int width) {
 
 // Cells that learn from those before them: by steps of 1, 2, 4 and 8, and then from `carry`, the
 // one before all.
-static uchar16 sweep_up(uchar16 v, uchar carry) {
+OUTLINE uchar16 sweep_up(uchar16 v, uchar carry) {
     const uchar far = CELL_DISTANCE_MAX;
     const uchar8 beyond = (uchar8)(far);
     v = min(v, (uchar16)(far, v.s01234567, v.s89ab, v.scd, v.se) + (uchar16)(1));
@@ -44,7 +44,7 @@ static uchar16 sweep_up(uchar16 v, uchar carry) {
 }
 
 // Spreads distances along x, to and fro.
-static void spread_along(__global const uchar *in, __global uchar *out, int width) {
+OUTLINE void spread_along(__global const uchar *in, __global uchar *out, int width) {
     const int last = max(width - 16, 0);
     for (int x = 0; x < width; x += 16) {
         const int at = min(x, last);
@@ -69,7 +69,7 @@ static bool any_beyond(uchar16 distance, int r) {
 
 // Spreads distances to row i along y or z, from rows that are `stride` cells apart, with so many
 // before it and after it.
-static void spread_across(__global const uchar *in, __global uchar *out, int width, int stride,
+OUTLINE void spread_across(__global const uchar *in, __global uchar *out, int width, int stride,
                           int rows_before, int rows_after) {
     const int last = max(width - 16, 0);
     for (int x = 0; x < width; x += 16) {

@@ -11,7 +11,10 @@
 #define LANES 1 // rays per work-item: 1, 4, 8 or 16
 #endif
 
+// What belongs into the ray loop, and what is better kept out of a kernel's body: it takes registers there, and
+// compilers work on it again and again.
 #define INLINE static inline __attribute__((always_inline))
+#define OUTLINE static __attribute__((noinline))
 
 #define LANES_JOIN_(a, b) a##b
 #define LANES_JOIN(a, b) LANES_JOIN_(a, b)

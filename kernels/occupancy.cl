@@ -18,20 +18,19 @@ struct cell_dims {
     int x, y, z;
 };
 
-// The range of the values that samples in cells up to `reach` away from cell i may have. A cubic
-// filter reads a voxel more on each side, so its cells have a share in their neighbours; and
-// Catmull & Rom's weights, whose absolute values add up to at most 5/4 along an axis, lead out of
-// the range of the voxels by at most ((5/4)^3 - 1) / 2 of it on either side.
+// The range of the values that samples in cell i may have. A cubic filter reads a voxel more on
+// each side, so its cells have a share in their neighbours; and Catmull & Rom's weights, whose
+// absolute values add up to at most 5/4 along an axis, lead out of the range of the voxels by at
+// most ((5/4)^3 - 1) / 2 of it on either side.
 static float2 reachable(__constant struct part *part, __global const float2 *ranges,
-                        struct cell_dims dims, int i, int reach) {
-    reach += part->filter & FILTERS_CUBIC ? 1 : 0;
-    if (reach == 0)
+                        struct cell_dims dims, int i) {
+    if (!(part->filter & FILTERS_CUBIC))
         return ranges[i];
     const int x = i % dims.x, y = i / dims.x % dims.y, z = i / part->cell_slice;
     float2 range = (float2)(INFINITY, -INFINITY);
-    for (int nz = max(z - reach, 0); nz <= min(z + reach, dims.z - 1); nz++)
-        for (int ny = max(y - reach, 0); ny <= min(y + reach, dims.y - 1); ny++)
-            for (int nx = max(x - reach, 0); nx <= min(x + reach, dims.x - 1); nx++) {
+    for (int nz = max(z - 1, 0); nz <= min(z + 1, dims.z - 1); nz++)
+        for (int ny = max(y - 1, 0); ny <= min(y + 1, dims.y - 1); ny++)
+            for (int nx = max(x - 1, 0); nx <= min(x + 1, dims.x - 1); nx++) {
                 const float2 near = ranges[nz * part->cell_slice + ny * part->cell_row + nx];
                 range = (float2)(fmin(range.x, near.x), fmax(range.y, near.y));
             }
@@ -53,7 +52,7 @@ static mask has_surface(__constant struct part *part, real low, real high) {
 }
 #endif
 
-#define LOAD_VISIBLE(at) next[at]
+#define LOAD_VISIBLE(at) (int)next[at]
 
 // The lanes in whose range of values something may be visible. An extremum is moved by all values
 // that it does not outdo, and a mean by all.
@@ -126,7 +125,7 @@ static void load_reachable(real *low, real *high, __constant struct part *part,
     const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
                                    count / part->cell_slice};
     for (int lane = 0; lane < LANES; lane++) {
-        const float2 range = reachable(part, ranges, dims, min(at + lane, count - 1), 0);
+        const float2 range = reachable(part, ranges, dims, min(at + lane, count - 1));
         lows[lane] = range.x;
         highs[lane] = range.y;
     }
@@ -137,7 +136,7 @@ static void load_reachable(real *low, real *high, __constant struct part *part,
 
 // Leaves 0 in those of LANES cells from cell `at` on, of a part's `count`, in which something may
 // be visible, else `empty`.
-static void find_cells(__constant struct world *world, __constant struct part *part,
+OUTLINE void find_cells(__constant struct world *world, __constant struct part *part,
                        __global const float2 *values, __global const uint *next,
                        __global uchar *out, int at, int count, bool linear, uint empty) {
     real low, high;
@@ -200,13 +199,15 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
             find_cells(world, part, ranges, visible, out + part->cells, at, (int)count, linear, empty);
         return;
     }
+#if SKIP > SKIP_GRID || ADAPTIVE
     const struct cell_dims dims = {part->cell_row, part->cell_slice / part->cell_row,
                                    (int)count / part->cell_slice};
-    in += part->cells;
+    __global const uchar *cells = in + part->cells;
+#endif
 #if SKIP == SKIP_BLOCKS
     // `empty` says how large a sub-block is, or that no data are to be stored as well.
     if (pass == PASS_SEEN) {
-        keep_seen(part, in, out, dims, (int)i, (int)empty);
+        keep_seen(part, cells, out, dims, (int)i, (int)empty);
         return;
     }
 #endif
@@ -225,14 +226,14 @@ __kernel void occupancy(__constant struct world *world, __global const float2 *r
     else if (pass >= PASS_BINS)
         out[i] = find_bins(part, ranges + part->ranges, dims, (int)i, (int)(pass - PASS_BINS), empty);
 #elif SKIP == SKIP_BVH
-    out[i] = find_brick(part, in, dims, (int)i, (int)(pass - PASS_BRICK));
+    out[i] = find_brick(part, cells, dims, (int)i, (int)(pass - PASS_BRICK));
 #elif SKIP == SKIP_OCTREE
     if (pass == PASS_NAME)
-        name_nodes(part, in, out, dims, (int)i);
+        name_nodes(part, cells, out, dims, (int)i);
     else
         merge(part, out, dims, (int)i, (int)(pass - PASS_MERGE));
 #elif SKIP == SKIP_DISTANCE
-    spread(in, out, dims, (int)i, (int)pass);
+    spread(cells, out, dims, (int)i, (int)pass);
 #endif
 }
 

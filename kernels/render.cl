@@ -144,7 +144,6 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             }
             seen = true;
             expected |= 1UL << c;
-
             real r, g, b;
             entry_colour(table, &sight.entry, &r, &g, &b);
 #if VOXELS & VOXELS_RGBA

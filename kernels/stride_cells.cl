@@ -17,7 +17,7 @@ static uchar find_stride(__constant struct world *world, __constant struct part 
                          struct cell_dims dims, int i) {
     if (part->stride_max == 1)
         return 1;
-    const float2 range = reachable(part, ranges + part->ranges, dims, i, 0);
+    const float2 range = reachable(part, ranges + part->ranges, dims, i);
     if (range.x > range.y)
         return (uchar)part->stride_max;
     const float a = range.x * part->table_scale + part->table_bias;

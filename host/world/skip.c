@@ -85,8 +85,7 @@ void pel_skip_find_facts(struct pel_skip_facts *facts, const struct pel_scene *s
                          enum pel_reader reader) {
     *facts = (struct pel_skip_facts){.nothing = pel_model_skips_nothing(scene),
                                      .counts = world->bytes.debug == DEBUG_CLUSTERS ||
-                                               world->bytes.debug == DEBUG_NODES,
-                                     .pool = world->pool};
+                                               world->bytes.debug == DEBUG_NODES};
     double seen = 0;
     for (int p = 0; p < world->bytes.part_count; p++) {
         // Slabs of one volume have its values together.
@@ -115,10 +114,6 @@ enum pel_skip pel_skip_choose(const struct pel_skip_facts *facts,
     if (facts->nothing) {
         snprintf(reason, PEL_SKIP_REASON_BYTES, "with this model every sample counts");
         return PEL_SKIP_NONE;
-    }
-    if (facts->pool) {
-        snprintf(reason, PEL_SKIP_REASON_BYTES, "only bricks that can be seen are on the device");
-        return PEL_SKIP_BLOCKS;
     }
     if (facts->voxels < PEL_SKIP_VOXELS_LEAST) {
         snprintf(reason, PEL_SKIP_REASON_BYTES, "%llu voxels are too few to skip any",

@@ -8,7 +8,6 @@
 struct pel_skip_facts {
     bool nothing;    // every sample counts, whatever its value
     bool counts;     // a debug view counts boxes of a hierarchy
-    bool pool;       // the voxels do not all fit, or are not all to be there
     uint64_t voxels; // of all volumes that are shown
     double visible;  // share of them that the transfer functions show, as far as values tell
 };

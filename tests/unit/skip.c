@@ -15,10 +15,8 @@ static void test_rule(void **state) {
         {{.voxels = 1 << 24, .visible = 0.96}, PEL_SKIP_NONE, "96 % of the voxels"},
         {{.voxels = 8191, .visible = 0.1}, PEL_SKIP_NONE, "8191 voxels are too few"},
         {{.voxels = 8192, .visible = 0.1}, PEL_SKIP_DISTANCE, "10 % of the voxels"},
-        {{.voxels = 1 << 24, .visible = 1, .pool = true}, PEL_SKIP_BLOCKS, "only bricks"},
         {{.voxels = 1 << 24, .visible = 0.1, .nothing = true}, PEL_SKIP_NONE, "every sample"},
         {{.voxels = 1 << 24, .visible = 1, .counts = true}, PEL_SKIP_BVH, "the debug view"},
-        {{.voxels = 1 << 24, .pool = true, .nothing = true}, PEL_SKIP_NONE, "every sample"},
     };
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         char reason[PEL_SKIP_REASON_BYTES];
