@@ -27,14 +27,16 @@ INLINE void clip_plane(struct span *span, const struct ray *ray, float4 plane) {
     span->far = CHOOSE(span->far, (real)(-FLT_MAX), leaves);
 }
 
-// Narrows the span of a ray in a part to what planes and kept boxes leave.
+// Narrows the span of a ray in a part to what planes and kept boxes leave. Cuts are counted, not
+// pointed at: llvmpipe of Mesa 26 reads through a pointer that goes around in a loop also where no
+// ray runs it, and the pointer is none there.
 INLINE void clip_span(__constant struct world *world, __constant struct part *part,
                       const struct ray *ray, struct span *span) {
-    __constant const float4 *cut = world->cuts + part->cuts;
-    for (int n = 0; n < part->plane_count; n++)
-        clip_plane(span, ray, *cut++);
+    int cut = part->cuts;
+    for (int n = 0; n < part->plane_count; n++, cut++)
+        clip_plane(span, ray, world->cuts[cut]);
     for (int n = 0; n < part->box_count; n++, cut += 3) {
-        const struct ray ray_box = transform_ray(cut, ray);
+        const struct ray ray_box = transform_ray(&world->cuts[cut], ray);
         clip_slab(span, ray_box.ox, ray_box.dx, -1.0f, 1.0f);
         clip_slab(span, ray_box.oy, ray_box.dy, -1.0f, 1.0f);
         clip_slab(span, ray_box.oz, ray_box.dz, -1.0f, 1.0f);
@@ -48,14 +50,13 @@ INLINE real clip_row(float4 row, real x, real y, real z) {
 // The lanes whose place at t millimetres along the ray is in none of the part's cut-away boxes.
 INLINE mask clip_keeps(__constant struct world *world, __constant struct part *part,
                        const struct ray *ray, real t) {
-    __constant const float4 *cut =
-        world->cuts + part->cuts + part->plane_count + 3 * part->box_count;
+    int cut = part->cuts + part->plane_count + 3 * part->box_count;
     const real x = ray->ox + t * ray->dx, y = ray->oy + t * ray->dy, z = ray->oz + t * ray->dz;
     mask kept = (mask)(-1);
     for (int n = 0; n < part->hole_count; n++, cut += 3)
-        kept &= MASK(fabs(clip_row(cut[0], x, y, z)) > 1.0f) |
-                MASK(fabs(clip_row(cut[1], x, y, z)) > 1.0f) |
-                MASK(fabs(clip_row(cut[2], x, y, z)) > 1.0f);
+        kept &= MASK(fabs(clip_row(world->cuts[cut], x, y, z)) > 1.0f) |
+                MASK(fabs(clip_row(world->cuts[cut + 1], x, y, z)) > 1.0f) |
+                MASK(fabs(clip_row(world->cuts[cut + 2], x, y, z)) > 1.0f);
     return kept;
 }
 #endif

@@ -30,6 +30,10 @@ if grep -q __asan_init "$PELLUCID" && [ -n "$driver" ]; then
     export ASAN_OPTIONS=use_sigaltstack=0:verify_asan_link_order=0 LD_PRELOAD=$driver
 fi
 
+# Keys by their codes: xdotool holds Alt with those it looks up by these names where keyboards are as in xkb-data 2.46.
+# shellcheck disable=SC2034
+f11=95 f12=96
+
 # open ARGUMENT... - starts the viewer in the background and waits for its window: $viewer is the process, $window
 # the window.
 open() {

@@ -20,7 +20,7 @@ xdotool keydown Right sleep 0.2 keyup Right key ctrl+z key ctrl+y
 # On, undone, and on again: of no effect on one eye.
 xdotool key shift+y key ctrl+z key shift+y
 saved scene.json
-xdotool key F12
+xdotool key $f12
 wait_for picture-001.png
 shut
 "$PELLUCID" render scene.json -o scene.ppm || complain "the saved scene does not render"

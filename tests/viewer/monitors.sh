@@ -99,7 +99,7 @@ try() {
         xdotool mousemove $((900 - 800 * monitor)) 200
         open scene.json --bare --set wall=null --size 300x200 --full-screen=$monitor --frames 100000 || return
         comes "$1, monitor $monitor" "${place[@]}"
-        xdotool key F11
+        xdotool key $f11
         for _ in $(seq 50); do
             eval "$(xdotool getwindowgeometry --shell "$window")"
             [ "$WIDTH" = 300 ] && break
@@ -107,7 +107,7 @@ try() {
         done
         [ "$WIDTH" = 300 ] && [ $((X >= 640)) = $((1 - monitor)) ] ||
             complain "$1, monitor $monitor: F11 leads to $X,$Y $WIDTH x $HEIGHT"
-        xdotool key F11
+        xdotool key $f11
         comes "$1, monitor $monitor again" "${place[@]}"
         shut
     done

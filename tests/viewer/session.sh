@@ -21,7 +21,7 @@ wait_size() {
 
 # shoot N - saves picture number N by its key.
 shoot() {
-    xdotool key F12
+    xdotool key $f12
     wait_for "picture-00$1.png"
 }
 
@@ -29,9 +29,9 @@ open scene.json --bare || exit 1
 shoot 1
 xdotool windowsize "$window" 240 130
 wait_size 240 130
-xdotool key F11
+xdotool key $f11
 wait_size 1280 960
-xdotool key F11
+xdotool key $f11
 wait_size 240 130
 shoot 2
 # The file holds another volume now.

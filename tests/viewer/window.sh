@@ -29,9 +29,9 @@ if open "${small[@]}" --bare; then
         xdotool mousemove_relative -- 8 3
         sleep 0.03
     done
-    xdotool mouseup 1 key F12
+    xdotool mouseup 1 key $f12
     wait_for picture-001.png
-    xdotool key ctrl+z key F12
+    xdotool key ctrl+z key $f12
     wait_for picture-002.png
     shut
     cmp -s picture-001.png picture-002.png && complain "undo changed nothing"
