@@ -36,9 +36,9 @@ INLINE real mask_value(MEMORY_PARAMETERS, __constant struct part *part, real x, 
 INLINE mask mask_keeps(__constant struct world *world, __constant struct part *part,
                        MEMORY_PARAMETERS, real x, real y, real z) {
     mask selected = (mask)(0);
-    __constant const float4 *rows = world->cuts + part->mask_cuts;
-    __constant const float4 *ranges = rows + 3 * part->mask_count;
-    for (int n = 0; n < part->mask_count; n++, rows += 3) {
+    __constant const float4 *ranges = world->cuts + part->mask_cuts + 3 * part->mask_count;
+    for (int n = 0; n < part->mask_count; n++) {
+        __constant const float4 *rows = &world->cuts[part->mask_cuts + 3 * n];
         __constant struct part *other = &world->parts[part->mask_part + n];
         const float4 low = other->box_low + other->memory_from_voxel,
                      high = other->box_high + other->memory_from_voxel;
@@ -102,14 +102,14 @@ static bool mask_empties(__constant struct world *world, __constant struct part 
                          __global const float2 *values, int x, int y, int z) {
     if (part->mask_count == 0)
         return false;
-    __constant const float4 *rows = world->cuts + part->mask_cuts;
-    __constant const float4 *ranges = rows + 3 * part->mask_count;
+    __constant const float4 *ranges = world->cuts + part->mask_cuts + 3 * part->mask_count;
     const float half_side = 0.5f * CELL_VOXELS;
     // A fiftieth of a voxel for rounding.
     const float reach = half_side + 0.02f + (POOL ? MASK_POOL_REACH : 0.0f);
     const float cx = x * CELL_VOXELS + half_side, cy = y * CELL_VOXELS + half_side,
                 cz = z * CELL_VOXELS + half_side;
-    for (int n = 0; n < part->mask_count; n++, rows += 3) {
+    for (int n = 0; n < part->mask_count; n++) {
+        __constant const float4 *rows = &world->cuts[part->mask_cuts + 3 * n];
         __constant struct part *other = &world->parts[part->mask_part + n];
         const float4 box_low = other->box_low + other->memory_from_voxel,
                      box_high = other->box_high + other->memory_from_voxel;
