@@ -148,7 +148,7 @@ static double block_field(const double p_voxel[3], const void *user) {
 // Waves, and other waves that labels show a part of, all in poses of their own.
 static struct pel_scene *scene_of_waves(double voxels_mm) {
     bool small = scene_is_small();
-    struct pel_scene *scene = scene_create(small ? 12 : 32, small ? 8 : 24);
+    struct pel_scene *scene = scene_create(small ? 9 : 32, small ? 6 : 24);
     scene_add_crossing(scene);
     int side = (int)(16 / voxels_mm);
     double size = fmax(1, 4 / voxels_mm);

@@ -9,16 +9,15 @@
 #include "support/scenes.h"
 #include "support/test.h"
 
-// Packets, but where their compiler takes minutes for what these kernels are made of: there a ray
-// at a time.
+// Packets of few rays, whose kernels are quickly compiled; scenes/models.json has wide ones.
 static int lanes(void) {
-    return judge_packet_lanes() < 16 ? 1 : 16;
+    return judge_lanes(4);
 }
 
 // Two overlapping volumes of smooth waves, turned against each other.
 static struct pel_scene *scene_of_two(void) {
     bool small = scene_is_small();
-    struct pel_scene *scene = scene_create(small ? 12 : 24, small ? 8 : 16);
+    struct pel_scene *scene = scene_create(small ? 9 : 24, small ? 6 : 16);
     const int dims[3] = {18, 16, 14};
     const double range[2] = {0, 255}, spacing[3] = {1.5, 1.25, 1.5};
     struct pel_volume *first = scene_volume_waves(dims, PEL_VOXEL_U8, 5, 9);

@@ -39,7 +39,7 @@ static struct pel_matrix turned(uint64_t seed, double reach) {
 static struct pel_scene *scene_of_four(void) {
     static const enum pel_voxel_type types[] = {PEL_VOXEL_U8, PEL_VOXEL_I16, PEL_VOXEL_F32,
                                                 PEL_VOXEL_RGBA8};
-    struct pel_scene *scene = scene_create(small_or(12, 48), small_or(8, 36));
+    struct pel_scene *scene = scene_create(small_or(8, 40), small_or(6, 30));
     for (int k = 0; k < 4; k++)
         add_waves(scene, BRICK_SIDE - 4 + k, types[k], (uint64_t)k + 3, 0.1)->transform =
             turned((uint64_t)k + 1, 5);
@@ -214,7 +214,7 @@ static void test_lanes_take_the_same_samples(void **state) {
 
 static void check_many(bool one_volume, enum pel_mixing mixing) {
     struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
-    struct pel_scene *scene = scene_create(small_or(12, 48), small_or(8, 36));
+    struct pel_scene *scene = scene_create(small_or(8, 40), small_or(6, 30));
     scene->render.mixing = mixing;
     scene->render.step = 1;
     for (int k = 0; k < PEL_VOLUME_MAX; k++) {

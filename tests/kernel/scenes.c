@@ -16,26 +16,38 @@ static int is_scene(const struct dirent *entry) {
     return dot && strcmp(dot, ".json") == 0 && !strstr(entry->d_name, ".schema.");
 }
 
-// The scene at a size that the reference, and Oclgrind, render in a moment.
+// Where hypertextures are baked on a grid, its size is a key of the scene's.
+static const char *size_of_grids(const char *name, bool small) {
+    if (strstr(name, "hypertexture-head"))
+        return small ? "volumes.boiling.hypertexture.size=8"
+                     : "volumes.boiling.hypertexture.size=16";
+    if (strstr(name, "hypertexture"))
+        return small ? "volumes.*.hypertexture.size=8" : "volumes.*.hypertexture.size=16";
+    return NULL;
+}
+
+// The scene at a size that the reference, and Oclgrind, render in a moment. Compiling its kernel
+// takes the same for all sizes, but the pictures and grids of some scenes take longer than that. A
+// device that has one ray at a time does not optimise its code either (support/on).
 static struct pel_scene *load_small(const char *name) {
     char path[1024];
     snprintf(path, sizeof path, "%s/scenes/%s", TEST_SOURCE, name);
-    const char *small[] = {"render.size=[12,9]", "render.step=1", "volumes.*.generate.size=12",
+    // The reference takes a minute for 32 volumes in one place, and so does an interpreter.
+    bool many = strstr(name, "overlapping-32"), is_small = scene_is_small() || many;
+    const char *grids = size_of_grids(name, is_small);
+    const char *small[] = {many ? "render.size=[8,6]" : "render.size=[10,7]", "render.step=1",
+                           grids ? grids : "volumes.*.generate.size=12",
                            "volumes.*.generate.spacing=4"};
     // Volumes with a spacing of their own keep their size in millimetres.
     int small_count = strstr(name, "level-of-detail") ? 4 : 3;
-    // Those with hypertextures have smaller ones.
-    if (strstr(name, "hypertexture-head"))
-        small[2] = "volumes.boiling.hypertexture.size=8";
-    else if (strstr(name, "hypertexture"))
-        small[2] = "volumes.*.hypertexture.size=8";
-    const char *normal[] = {"render.size=[64,48]"};
-    // The reference takes a minute for 32 volumes in one place, and so does an interpreter.
-    bool is_small = scene_is_small() || strstr(name, "overlapping-32");
-    if (strstr(name, "overlapping-32"))
-        small[0] = "render.size=[8,6]";
-    struct pel_scene *scene =
-        is_small ? pel_scene_load(path, small, small_count) : pel_scene_load(path, normal, 1);
+    const char *normal[] = {
+        judge_packet_lanes() == 1 ? "render.size=[24,18]" : "render.size=[40,30]", grids};
+    if (getenv("PELLUCID_TEST_ALL")) {
+        normal[0] = "render.size=[64,48]";
+        grids = NULL;
+    }
+    struct pel_scene *scene = is_small ? pel_scene_load(path, small, small_count)
+                                       : pel_scene_load(path, normal, grids ? 2 : 1);
     if (!scene)
         fail_msg("%s", pel_error_message());
     return scene;
@@ -89,8 +101,8 @@ static void check_scene(struct pel_renderer *renderer, struct pel_renderer *othe
 }
 
 // A kernel takes seconds to compile, so implementations take turns: one with packets reads all
-// scenes from buffers and half of them from images, the others read each scene in one of both ways.
-// PELLUCID_TEST_ALL gives all of them all.
+// scenes from buffers and a fourth of them from images, the others read each scene in one of both
+// ways. PELLUCID_TEST_ALL gives all of them all.
 static bool takes(enum pel_reader reader, int scene) {
     bool images = reader == PEL_READER_IMAGE;
     if (getenv("PELLUCID_TEST_ALL"))
@@ -99,7 +111,7 @@ static bool takes(enum pel_reader reader, int scene) {
         return images == (scene % 2 == 0);
     if (judge_packet_lanes() == 1)
         return images == (scene % 2 == 1);
-    return !images || scene % 2 == 1;
+    return !images || scene % 4 == 1;
 }
 
 static void test_scenes(void **state) {

@@ -70,7 +70,7 @@ static void test_media(void **state) {
     scene->render.jitter = true;
     // llvmpipe leaves all loops of a ray after 65536 rounds of them, together.
     scene->render.shadows.length_mm = 8;
-    check(scene, PEL_READER_BUFFER, judge_packet_lanes(), "two clipped");
+    check(scene, PEL_READER_BUFFER, judge_lanes(8), "two clipped");
 
     scene = scene_of(false, true);
     add(scene, PEL_VOXEL_U8, 0);
@@ -93,7 +93,7 @@ static void test_models(void **state) {
     add(scene, PEL_VOXEL_U8, 1)->preintegration = true;
     scene->instances[1].transfer->opacities[0].opacity = 0;
     scene->render.mixing = PEL_MIX_OVER;
-    check(scene, PEL_READER_BUFFER, 4, "models");
+    check(scene, PEL_READER_BUFFER, judge_lanes(4), "models");
 }
 
 // Ways to skip give the same picture: none at all, by cells, and with the most to remember.

@@ -32,7 +32,7 @@ static void add_lights(struct pel_scene *scene) {
 static struct pel_scene *scene_of(int n) {
     bool small = scene_is_small();
     enum pel_voxel_type type = (enum pel_voxel_type)(n / 4);
-    struct pel_scene *scene = scene_create(small ? 12 : 40, small ? 9 : 30);
+    struct pel_scene *scene = scene_create(small ? 8 : 40, small ? 6 : 30);
     scene->render.mixing = n & 1 ? PEL_MIX_OVER : PEL_MIX_SUM;
     scene->render.step = small ? 2 : 1;
     if (n % 3 != 0)

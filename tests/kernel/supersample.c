@@ -14,7 +14,7 @@ static int packet(void) {
     return judge_lanes(4);
 }
 
-enum { WIDTH = 20, HEIGHT = 10, EDGE_COLUMN = 12, PATTERNS = PEL_PATTERN_HAMMERSLEY + 1 };
+enum { WIDTH = 20, HEIGHT = 6, EDGE_COLUMN = 12, PATTERNS = PEL_PATTERN_HAMMERSLEY + 1 };
 
 // A white opaque box that fills the picture from the left up to `covered` of EDGE_COLUMN.
 static struct pel_scene *scene_of_edge(double covered) {

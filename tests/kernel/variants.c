@@ -112,7 +112,9 @@ static void add_pair(struct pel_scene *scene, enum pel_voxel_type type, const st
 
 static struct pel_scene *scene_of(const struct choice *choice, int set, int turn) {
     bool small = scene_is_small();
-    struct pel_scene *scene = scene_create(small ? 10 : 48, small ? 8 : 36);
+    // A device that has one ray at a time is slow, too, as its code is not optimised (support/on).
+    bool slow = judge_packet_lanes() == 1;
+    struct pel_scene *scene = scene_create(small ? 8 : slow ? 20 : 40, small ? 6 : slow ? 15 : 30);
     scene->render.mixing = choice->mixing;
     scene->render.origin = choice->origin;
     scene->render.skip = choice->skip;
@@ -149,10 +151,19 @@ static void check_row(struct pel_renderer *renderer, const struct way *way, int 
     }
 }
 
-// The rows of one way to read. A compiler to which wide packets are a burden sees one row of them.
+// A compiler to which wide packets are a burden sees one row of narrow ones, and of the others
+// where everything is asked for.
+static int rows_of(const struct way *way) {
+    if (way->lanes <= judge_packet_lanes())
+        return SETS;
+    return way->lanes <= 4 || getenv("PELLUCID_TEST_ALL") ? 1 : 0;
+}
+
 static void test_way(void **state) {
     const struct way *way = *state;
-    int w = (int)(way - ways);
+    int w = (int)(way - ways), rows = rows_of(way);
+    if (rows == 0)
+        skip();
     struct pel_renderer *renderer = judge_renderer(way->reader, way->lanes);
     if (way->reader == PEL_READER_IMAGE) {
         struct choice choice = choose(w, 0, 0);
@@ -164,7 +175,7 @@ static void test_way(void **state) {
             skip();
         }
     }
-    for (int set = 0; set < (way->lanes > judge_packet_lanes() ? 1 : SETS); set++)
+    for (int set = 0; set < rows; set++)
         check_row(renderer, way, w, set);
     pel_renderer_destroy(renderer);
 }
