@@ -197,8 +197,8 @@ PEL_API bool pel_voxel_type_from_name(const char *name, enum pel_voxel_type *typ
 // Distance between neighbouring voxel centres along i, j, k, in millimetres.
 PEL_API void pel_volume_spacing(const struct pel_volume *volume, double spacing_mm[3]);
 
-// The value of voxel (i,j,k) in the file's own unit; NaN where absent, as in a hypertexture. For colour volumes the alpha
-// (RGBA) or the luminance (RGB, Rec. 709 weights), in 0..255.
+// The value of voxel (i,j,k) in the file's own unit; NaN where absent, as in a hypertexture. For
+// colour volumes the alpha (RGBA) or the luminance (RGB, Rec. 709 weights), in 0..255.
 PEL_API double pel_volume_value(const struct pel_volume *volume, int i, int j, int k);
 
 #define PEL_HISTOGRAM_BINS 256
@@ -222,8 +222,8 @@ PEL_API void pel_volume_measure(const struct pel_volume *volume, struct pel_stat
 // - downsample: mean over blocks of factor^3 voxels (nearest for labels)
 // - convert: to another type; values that do not fit are clamped, with a warning that counts them.
 //   From a float type to an integer one slope and intercept are chosen to use the whole range.
-// They fail (ARGUMENT) where `first` and `dims` are not inside the source, a number of voxels or the
-// factor is below 1, or the source is a hypertexture.
+// They fail (ARGUMENT) where `first` and `dims` are not inside the source, a number of voxels or
+// the factor is below 1, or the source is a hypertexture.
 PEL_API struct pel_volume *pel_volume_crop(const struct pel_volume *source, const int first[3],
                                            const int dims[3]);
 PEL_API struct pel_volume *pel_volume_resample(const struct pel_volume *source, const int dims[3]);
