@@ -197,8 +197,8 @@ PEL_API bool pel_voxel_type_from_name(const char *name, enum pel_voxel_type *typ
 // Distance between neighbouring voxel centres along i, j, k, in millimetres.
 PEL_API void pel_volume_spacing(const struct pel_volume *volume, double spacing_mm[3]);
 
-// The value of voxel (i,j,k) in the file's own unit; NaN where absent. For colour volumes the alpha
-// (RGBA) or the luminance (RGB, Rec. 709 weights), in 0..255.
+// The value of voxel (i,j,k) in the file's own unit; NaN where absent, as in a hypertexture. For
+// colour volumes the alpha (RGBA) or the luminance (RGB, Rec. 709 weights), in 0..255.
 PEL_API double pel_volume_value(const struct pel_volume *volume, int i, int j, int k);
 
 #define PEL_HISTOGRAM_BINS 256
@@ -211,7 +211,8 @@ struct pel_statistics {
     double percentiles[101];                // percentiles[p]: p percent of the values are <= it
 };
 
-// Measures all voxels. A volume without any present voxel has min = max = 0.
+// Measures all voxels. A volume without any present voxel has min = max = 0, and a hypertexture
+// each value in 0..1 as often.
 PEL_API void pel_volume_measure(const struct pel_volume *volume, struct pel_statistics *statistics);
 
 // New volumes from old; the source stays as it is. Values keep their meaning (slope, unit) and
@@ -221,8 +222,8 @@ PEL_API void pel_volume_measure(const struct pel_volume *volume, struct pel_stat
 // - downsample: mean over blocks of factor^3 voxels (nearest for labels)
 // - convert: to another type; values that do not fit are clamped, with a warning that counts them.
 //   From a float type to an integer one slope and intercept are chosen to use the whole range.
-// They fail (ARGUMENT) where `first` and `dims` are not inside the source, or a number of voxels or
-// the factor is below 1.
+// They fail (ARGUMENT) where `first` and `dims` are not inside the source, a number of voxels or
+// the factor is below 1, or the source is a hypertexture.
 PEL_API struct pel_volume *pel_volume_crop(const struct pel_volume *source, const int first[3],
                                            const int dims[3]);
 PEL_API struct pel_volume *pel_volume_resample(const struct pel_volume *source, const int dims[3]);
@@ -232,7 +233,7 @@ PEL_API struct pel_volume *pel_volume_convert(const struct pel_volume *source,
 
 // Writes a volume, as the extension says: .nrrd .nhdr .nii .nii.gz .tif/.tiff .mhd .mha
 // .raw (+ sidecar NAME.raw.json). Written to a temporary beside `path` and renamed at the end.
-// Fails (ARGUMENT) for another extension, and (FILE).
+// Fails (ARGUMENT) for another extension and for a hypertexture, and (FILE).
 PEL_API bool pel_volume_save(const struct pel_volume *volume, const char *path);
 
 // A synthetic volume. `kind` is one of pel_generator_names.
@@ -962,7 +963,7 @@ struct pel_brick_report {
 #define PEL_BRICK_SIZES 5 // of 8, 16, 32, 64 and 128 voxels
 
 // Measures an instance with its transfer function, for every size of bricks, on the host. False:
-// ARGUMENT, MEMORY.
+// ARGUMENT, also for a hypertexture, MEMORY.
 PEL_API bool pel_scene_measure_bricks(const struct pel_scene *scene, int instance,
                                       struct pel_brick_report reports[PEL_BRICK_SIZES]);
 

@@ -4,7 +4,7 @@
 // bin that values in it touch (Derin et al. 2021, section 2.3), and none where the value around the
 // part's first corner fills it: there are no data. That does not depend on what can be seen, so an
 // edit of the transfer function costs no more than to find the visible bins, and a look at the
-// cells of the stored sub-blocks. Included by occupancy.cl.
+// cells of the stored sub-blocks. Included by occupancy.cl, behind bricks.cl.
 #ifndef BINS_CL
 #define BINS_CL
 
@@ -51,18 +51,14 @@ static uchar visible_bins(__constant struct part *part, __global const uint *nex
 // what is no data, too.
 static uchar find_bins(__constant struct part *part, __global const float2 *ranges,
                        struct cell_dims dims, int i, int bits, bool whole) {
-    const int size = 1 << bits;
-    const int columns = (dims.x + size - 1) >> bits, rows = (dims.y + size - 1) >> bits;
-    const int left = i % columns << bits, top = i / columns % rows << bits,
-              front = i / columns / rows << bits;
-    const int right = min(left + size, dims.x), bottom = min(top + size, dims.y),
-              back = min(front + size, dims.z);
+    struct cell_box box;
+    brick_cells(dims, i, bits, &box);
     const float2 corner = reachable(part, ranges, dims, 0);
     bool data = whole;
     uint bins = 0;
-    for (int z = front; z < back; z++)
-        for (int y = top; y < bottom; y++)
-            for (int x = left; x < right; x++) {
+    for (int z = box.low.z; z < box.high.z; z++)
+        for (int y = box.low.y; y < box.high.y; y++)
+            for (int x = box.low.x; x < box.high.x; x++) {
                 const float2 range = reachable(part, ranges, dims,
                                                z * part->cell_slice + y * part->cell_row + x);
                 if (range.x > range.y)

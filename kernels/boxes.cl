@@ -26,9 +26,7 @@
 #if CAPACITY == 1
 // Where the rays enter the only part; FLT_MAX where they miss it.
 INLINE real find_first_entry(__constant struct world *world, const struct ray *ray) {
-    __constant struct part *part = &world->parts[0];
-    const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
-    const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+    const struct span span = part_span(&world->parts[0], ray);
     return CHOOSE((real)(FLT_MAX), span.near, MASK(span.near < span.far));
 }
 #else
@@ -119,9 +117,7 @@ INLINE real find_first_entry(__constant struct world *world, const struct ray *r
             continue;
         const int n = stack[depth], link = world->nodes[n].link;
         if (link < 0) {
-            __constant struct part *part = &world->parts[-1 - link];
-            const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
-            const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+            const struct span span = part_span(&world->parts[-1 - link], ray);
             first = CHOOSE(first, span.near, MASK(span.near < span.far) & MASK(span.near < first));
             continue;
         }

@@ -27,6 +27,14 @@ INLINE void clip_plane(struct span *span, const struct ray *ray, float4 plane) {
     span->far = CHOOSE(span->far, (real)(-FLT_MAX), leaves);
 }
 
+// Narrows a span to what is inside a box, which is the cube from -1 to 1 where its rows lead to.
+INLINE void clip_box(struct span *span, const struct ray *ray, __constant const float4 *rows) {
+    const struct ray ray_box = transform_ray(rows, ray);
+    clip_slab(span, ray_box.ox, ray_box.dx, -1.0f, 1.0f);
+    clip_slab(span, ray_box.oy, ray_box.dy, -1.0f, 1.0f);
+    clip_slab(span, ray_box.oz, ray_box.dz, -1.0f, 1.0f);
+}
+
 // Narrows the span of a ray in a part to what planes and kept boxes leave. Cuts are counted, not
 // pointed at: llvmpipe of Mesa 26 reads through a pointer that goes around in a loop also where no
 // ray runs it, and the pointer is none there.
@@ -35,12 +43,8 @@ INLINE void clip_span(__constant struct world *world, __constant struct part *pa
     int cut = part->cuts;
     for (int n = 0; n < part->plane_count; n++, cut++)
         clip_plane(span, ray, world->cuts[cut]);
-    for (int n = 0; n < part->box_count; n++, cut += 3) {
-        const struct ray ray_box = transform_ray(&world->cuts[cut], ray);
-        clip_slab(span, ray_box.ox, ray_box.dx, -1.0f, 1.0f);
-        clip_slab(span, ray_box.oy, ray_box.dy, -1.0f, 1.0f);
-        clip_slab(span, ray_box.oz, ray_box.dz, -1.0f, 1.0f);
-    }
+    for (int n = 0; n < part->box_count; n++, cut += 3)
+        clip_box(span, ray, &world->cuts[cut]);
 }
 
 INLINE real clip_row(float4 row, real x, real y, real z) {

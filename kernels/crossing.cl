@@ -12,9 +12,7 @@ INLINE real enter_instance(__constant struct world *world, const struct ray *ray
     const int medium = world->parts[p].medium;
     real near = (real)(FLT_MAX);
     for (int q = p; q < world->part_count && world->parts[q].medium == medium; q++) {
-        const struct ray ray_voxel = transform_ray(world->parts[q].voxel_from_world, ray);
-        const struct span span =
-            box_span(&ray_voxel, world->parts[q].box_low, world->parts[q].box_high);
+        const struct span span = part_span(&world->parts[q], ray);
         near = CHOOSE(near, fmin(near, span.near), MASK(span.near < span.far));
     }
     return near;
@@ -95,9 +93,7 @@ INLINE ulong find_parts(__constant struct world *world, const struct ray *ray, r
     *t_near = (real)(FLT_MAX);
     for (ulong near = find_boxes(world, ray, (real)(FLT_MAX)); near != 0; near &= near - 1) {
         const int p = first_part(near);
-        __constant struct part *part = &world->parts[p];
-        const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
-        const struct span span = box_span(&ray_voxel, part->box_low, part->box_high);
+        const struct span span = part_span(&world->parts[p], ray);
         const mask hit = MASK(span.near < span.far);
         *t_near = CHOOSE(*t_near, span.near, hit & MASK(span.near < *t_near));
         crossed |= any_lane(hit) ? (ulong)1 << p : 0;

@@ -78,15 +78,11 @@ INLINE void voxel_place_step(struct voxel_place *place, real t, mask runs) {
 // cleared in *kept.
 INLINE real clip_exit(__constant struct world *world, __constant struct part *part,
                       const struct ray *ray, real t, mask *kept) {
-    __constant const float4 *cut =
-        world->cuts + part->cuts + part->plane_count + 3 * part->box_count;
+    int cut = part->cuts + part->plane_count + 3 * part->box_count;
     real exit = (real)(FLT_MAX);
     for (int n = 0; n < part->hole_count; n++, cut += 3) {
-        const struct ray ray_box = transform_ray(cut, ray);
         struct span span = {(real)(-FLT_MAX), (real)(FLT_MAX)};
-        clip_slab(&span, ray_box.ox, ray_box.dx, -1.0f, 1.0f);
-        clip_slab(&span, ray_box.oy, ray_box.dy, -1.0f, 1.0f);
-        clip_slab(&span, ray_box.oz, ray_box.dz, -1.0f, 1.0f);
+        clip_box(&span, ray, &world->cuts[cut]);
         const mask meets = MASK(span.near < span.far) & MASK(span.far > t);
         const mask ahead = MASK(span.near > t);
         exit = CHOOSE(exit, fmin(exit, CHOOSE(span.far, span.near, ahead)), meets);

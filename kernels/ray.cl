@@ -112,4 +112,10 @@ INLINE struct span box_span(const struct ray *ray, float4 low, float4 high) {
     return span;
 }
 
+// Where a ray, in the world, is inside a part's box.
+INLINE struct span part_span(__constant struct part *part, const struct ray *ray) {
+    const struct ray ray_voxel = transform_ray(part->voxel_from_world, ray);
+    return box_span(&ray_voxel, part->box_low, part->box_high);
+}
+
 #endif

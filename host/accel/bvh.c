@@ -3,7 +3,7 @@
 // Built from the root down (Wald 2007): along each axis boxes are sorted by their middles into a
 // few bins, and of the planes between bins the one is taken for which count times surface, summed
 // over both sides, is least. Where that would make the tree too deep, boxes are halved by number
-// instead.
+// instead. The few boxes of whole parts get a hierarchy with more care: world/boxes.c.
 #include "accel/bvh.h"
 
 #include <math.h>
@@ -31,22 +31,6 @@ struct split {
 static const struct pel_box nothing = {{INFINITY, INFINITY, INFINITY},
                                        {-INFINITY, -INFINITY, -INFINITY}};
 
-// By comparisons, because fminf and fmaxf have to care for NaN and are calls of libm, which were
-// half of the time.
-static void widen(struct pel_box *box, const struct pel_box *by) {
-    for (int c = 0; c < 3; c++) {
-        box->low[c] = by->low[c] < box->low[c] ? by->low[c] : box->low[c];
-        box->high[c] = by->high[c] > box->high[c] ? by->high[c] : box->high[c];
-    }
-}
-
-// Half the surface.
-static double area(const struct pel_box *box) {
-    double x = (double)box->high[0] - box->low[0], y = (double)box->high[1] - box->low[1],
-           z = (double)box->high[2] - box->low[2];
-    return x * y + y * z + z * x;
-}
-
 static float middle(const struct pel_box *box, int axis) {
     return 0.5F * box->low[axis] + 0.5F * box->high[axis];
 }
@@ -60,8 +44,8 @@ static void bound(const struct builder *builder, size_t first, size_t count, str
         struct pel_box point;
         for (int c = 0; c < 3; c++)
             point.low[c] = point.high[c] = middle(box, c);
-        widen(whole, box);
-        widen(middles, &point);
+        pel_box_widen(whole, box);
+        pel_box_widen(middles, &point);
     }
 }
 
@@ -81,24 +65,24 @@ static struct split split_along(const struct builder *builder, size_t first, siz
     for (size_t i = first; i < first + count; i++) {
         const struct pel_box *box = &builder->boxes[builder->order[i]];
         int b = bin_of(box, middles, axis);
-        widen(&bins[b], box);
+        pel_box_widen(&bins[b], box);
         counts[b]++;
     }
     double left_costs[BINS];
     struct pel_box side = nothing;
     size_t sum = 0;
     for (int b = 0; b < BINS - 1; b++) {
-        widen(&side, &bins[b]);
+        pel_box_widen(&side, &bins[b]);
         sum += counts[b];
-        left_costs[b + 1] = sum ? (double)sum * area(&side) : INFINITY;
+        left_costs[b + 1] = sum ? (double)sum * pel_box_area(&side) : INFINITY;
     }
     struct split best = {axis, 0, INFINITY};
     side = nothing;
     sum = 0;
     for (int b = BINS - 1; b > 0; b--) {
-        widen(&side, &bins[b]);
+        pel_box_widen(&side, &bins[b]);
         sum += counts[b];
-        double cost = sum ? (double)sum * area(&side) + left_costs[b] : INFINITY;
+        double cost = sum ? (double)sum * pel_box_area(&side) + left_costs[b] : INFINITY;
         if (cost < best.cost)
             best = (struct split){axis, b, cost};
     }

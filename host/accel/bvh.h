@@ -5,14 +5,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "accel/box.h"
 #include "shared/bvh.h"
 
 // The most boxes a hierarchy is built over, so that a balanced one is never too deep.
 #define PEL_BVH_BOXES ((size_t)1 << 28)
-
-struct pel_box {
-    float low[3], high[3];
-};
 
 // Builds the hierarchy over `count` boxes, at least one, with one box in each leaf: writes
 // 2 * count - 1 nodes. False: MEMORY.

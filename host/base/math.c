@@ -82,12 +82,18 @@ struct pel_matrix pel_matrix_from_quaternion(const double xyzw[4], const double 
     }};
 }
 
-bool pel_matrix_is_rigid(const struct pel_matrix *matrix, double tolerance) {
+double pel_matrix_deviation(const struct pel_matrix *matrix) {
+    double worst = 0;
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j <= i; j++)
-            if (!(fabs(pel_dot(matrix->m[i], matrix->m[j]) - (i == j)) <= tolerance))
-                return false;
-    return pel_matrix_determinant(matrix) > 0;
+        for (int j = 0; j <= i; j++) {
+            double off = fabs(pel_dot(matrix->m[i], matrix->m[j]) - (i == j));
+            worst = isnan(worst) || off <= worst ? worst : off;
+        }
+    return worst;
+}
+
+bool pel_matrix_is_rigid(const struct pel_matrix *matrix, double tolerance) {
+    return pel_matrix_deviation(matrix) <= tolerance && pel_matrix_determinant(matrix) > 0;
 }
 
 void pel_matrix_direction(double out[3], const struct pel_matrix *matrix,

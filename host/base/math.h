@@ -23,7 +23,11 @@ struct pel_matrix pel_matrix_from_quaternion(const double xyzw[4], const double 
 // Determinant of the upper left 3x3.
 double pel_matrix_determinant(const struct pel_matrix *matrix);
 
-// True when the upper left 3x3 is a proper rotation within `tolerance` per element.
+// How far the upper left 3x3 is from a rotation, which may mirror: the greatest element of
+// R R^T - 1. NaN when it is not finite.
+double pel_matrix_deviation(const struct pel_matrix *matrix);
+
+// True when the upper left 3x3 is a proper rotation within `tolerance` per element of R R^T.
 bool pel_matrix_is_rigid(const struct pel_matrix *matrix, double tolerance);
 
 // p = matrix * point, and d = matrix * direction (no translation). `out` may be the input.

@@ -208,7 +208,8 @@ bool bench_peer_run(const struct bench *bench, const struct bench_case *work, in
 bool bench_start_run(const struct bench *bench, struct bench_case *one, const char *cache,
                      double *ms, char problem[256]);
 
-// Makes an empty folder and takes it away with all that is in it. `path` has room for 256 bytes.
+// Makes an empty folder and takes it away with all that is in it. `path` has room for 256 bytes,
+// and is empty where there is none.
 bool bench_folder_create(char *path);
 void bench_folder_remove(const char *path);
 

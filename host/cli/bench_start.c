@@ -31,10 +31,13 @@ enum { CACHES = sizeof cache_names / sizeof *cache_names };
 
 bool bench_folder_create(char *path) {
     const char *parent = getenv("TMPDIR");
-    snprintf(path, 256, "%s/pellucid-bench-XXXXXX", parent && *parent ? parent : "/tmp");
-    if (mkdtemp(path))
+    bool fits =
+        snprintf(path, 256, "%s/pellucid-bench-XXXXXX", parent && *parent ? parent : "/tmp") < 256;
+    if (fits && mkdtemp(path))
         return true;
-    cli_fail(PEL_ERROR_FILE, "%s: cannot create: %s", path, strerror(errno));
+    cli_fail(PEL_ERROR_FILE, "%s: cannot create: %s", path, strerror(fits ? errno : ENAMETOOLONG));
+    // What is not ours is not to be removed.
+    path[0] = '\0';
     return false;
 }
 

@@ -20,7 +20,9 @@ struct arguments {
 static const struct argp_option options[] = {
     {"json", KEY_JSON, NULL, 0, "Write a JSON array with an object for each file", 0},
     {"bricks", KEY_BRICKS, NULL, 0,
-     "How many bricks of 8 to 128 voxels can be seen, and to how few clusters they join", 0},
+     "How many bricks of 8 to 128 voxels can be seen, and to how few clusters they join; not of "
+     "hypertextures",
+     0},
     {0},
 };
 
@@ -49,9 +51,16 @@ static error_t parse(int key, char *argument, struct argp_state *state) {
     }
 }
 
+// Hypertextures have no voxels before they are baked.
+static bool has_bricks(const struct pel_scene *scene, int instance) {
+    return scene->volumes[scene->instances[instance].volume]->voxels != NULL;
+}
+
 // Adds what is to be said about bricks to each volume of a scene; returns the exit status.
 static int add_bricks(const struct pel_scene *scene, json_t *volumes) {
     for (int i = 0; i < scene->instance_count; i++) {
+        if (!has_bricks(scene, i))
+            continue;
         json_t *bricks = describe_bricks_json(scene, i);
         if (!bricks)
             return cli_fail_library();
@@ -76,7 +85,8 @@ static int show_scene(const char *path, const struct arguments *arguments, json_
         printf("%s\n", path);
         describe_scene(scene);
         for (int i = 0; !status && arguments->bricks && i < scene->instance_count; i++)
-            status = describe_bricks(scene, i, 4);
+            if (has_bricks(scene, i))
+                status = describe_bricks(scene, i, 4);
     }
     pel_scene_destroy(scene);
     return status;

@@ -67,14 +67,11 @@ static bool add_pair(struct overrides *overrides, const char *option, const char
         return false;
     }
     *value++ = '\0';
-    char key[64];
-    snprintf(key, sizeof key, "%s.%s", parent, pair);
     bool list = strchr(value, ',') != NULL;
-    char *json = NULL;
-    if (asprintf(&json, list ? "[%s]" : "%s", value) < 0)
+    char *text = NULL;
+    if (asprintf(&text, list ? "%s.%s=[%s]" : "%s.%s=%s", parent, pair, value) < 0)
         fail_memory();
-    overrides_add(overrides, key, json);
-    free(json);
+    append(overrides, text);
     return true;
 }
 

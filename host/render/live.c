@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/error.h"
 #include "base/memory.h"
 #include "render/bake.h"
 #include "volume/hypertexture.h"
@@ -16,7 +17,7 @@ static const struct pel_hypertexture *find_live(const struct pel_scene *scene,
     return scene->volumes[world->live[number]]->hypertexture;
 }
 
-// The values of an object that comes later in the list than one it equals are not sent again.
+// Sends the values of all objects, unless they are there from the last time. Tells recipes where.
 static bool send_objects(struct pel_live *live, struct pel_device *device,
                          const struct pel_scene *scene, const struct pel_world *world,
                          struct recipe *recipes) {
@@ -26,6 +27,10 @@ static bool send_objects(struct pel_live *live, struct pel_device *device,
         const struct pel_volume *object = find_live(scene, world, i)->object;
         if (!object)
             continue;
+        if (values > UINT32_MAX)
+            return pel_fail(PEL_ERROR_DEVICE,
+                            "the volumes that recipes grow on have more than %u voxels",
+                            UINT32_MAX);
         serials[i] = object->serial;
         recipes[i].object_offset = (u32)values;
         values += pel_volume_voxel_count(object);

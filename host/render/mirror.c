@@ -40,8 +40,11 @@ bool pel_mirror_update(struct pel_mirror *mirror, struct pel_device *device, con
         char *copy = (char *)mirror->copy + start;
         if (!fresh && memcmp(block, copy, end - start) == 0)
             continue;
-        if (!pel_buffer_write(mirror->buffer, start, end - start, block))
+        if (!pel_buffer_write(mirror->buffer, start, end - start, block)) {
+            // What is there now, nobody knows.
+            pel_mirror_finish(mirror);
             return false;
+        }
         memcpy(copy, block, end - start);
         if (changed)
             *changed = true;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "output/image.h"
+#include "world/world.h"
 
 bool pel_region_check(const struct pel_render_settings *settings) {
     const int *region = settings->region;
@@ -25,7 +26,7 @@ bool pel_region_check(const struct pel_render_settings *settings) {
 // rays, and its light is theirs, too.
 static int margin_px(const struct pel_render_settings *settings) {
     const struct pel_supersampling *rays = &settings->supersampling;
-    if (settings->debug != PEL_DEBUG_NONE)
+    if (settings->debug != PEL_DEBUG_NONE || !pel_world_is_supersampled(rays))
         return 0;
     return (rays->adaptive > 0) + (rays->filter == PEL_RECONSTRUCTION_GAUSSIAN);
 }

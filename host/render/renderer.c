@@ -207,12 +207,11 @@ static struct pel_image *run(struct pel_renderer *renderer, struct pel_kernel *k
             paint(image, renderer, scene->render.debug, options, statistics));
     free(renderer->pace.tile_ms);
     renderer->pace.tile_ms = NULL;
-    if (!good) {
+    if (!good || !pel_counts_add(renderer->sample_counts, tiling, pel_world_eyes(world),
+                                 pel_world_pictures(world), statistics)) {
         pel_image_destroy(image);
         return NULL;
     }
-    pel_counts_add(renderer->sample_counts, tiling, pel_world_eyes(world),
-                   pel_world_pictures(world), statistics);
     statistics->download_ms = lap_ms(&mark);
     return image;
 }

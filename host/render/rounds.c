@@ -10,20 +10,13 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "base/math.h"
 
 static const double llvmpipe_most = 65535;
-
-static double diagonal_mm(const struct world *bytes) {
-    const float4 *low = &bytes->bounds_low, *high = &bytes->bounds_high;
-    return pel_length((double[]){(double)high->x - (double)low->x, (double)high->y - (double)low->y,
-                                 (double)high->z - (double)low->z});
-}
 
 // The samples of a part along the longest line through it.
 static double part_samples(const struct pel_world *world, int p) {
     const struct world *bytes = &world->bytes;
-    double length_mm = fmin(world->diagonals_mm[p], diagonal_mm(bytes));
+    double length_mm = fmin(world->diagonals_mm[p], pel_world_diagonal_mm(world));
     double step_mm = bytes->step_mm;
     if (world->mixing == MIXING_ORDERED)
         step_mm = bytes->parts[p].step_mm;
@@ -46,7 +39,7 @@ static double rounds_per_sample(const struct pel_world *world, enum pel_skip ski
 static double secondary_rounds(const struct pel_world *world, enum pel_skip skip, double length_mm,
                                double step_mm) {
     double parts = world->bytes.part_count;
-    double samples = fmin(length_mm, diagonal_mm(&world->bytes)) / step_mm + 1;
+    double samples = fmin(length_mm, pel_world_diagonal_mm(world)) / step_mm + 1;
     double asked = parts > 1 ? 3 * parts : 1; // nodes of the hierarchy, and what is in it
     return asked + samples * (1 + parts * rounds_per_sample(world, skip));
 }
@@ -80,7 +73,7 @@ double pel_rounds_most(const struct pel_world *world, enum pel_skip skip) {
     if (world->mixing == MIXING_ORDERED)
         all *= 1 + bytes->part_count;
     else if (!(world->models & MODELS_EMISSION))
-        all = fmin(all, diagonal_mm(bytes) / (double)bytes->step_mm + 1);
+        all = fmin(all, pel_world_diagonal_mm(world) / (double)bytes->step_mm + 1);
     // And a few for each part to find where the ray crosses it, and its place among the others.
     double ray = all + within + bytes->part_count * (3.0 + bytes->part_count);
     return world->eyes == EYES_MERGED ? 2 * ray : ray;

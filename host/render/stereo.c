@@ -97,7 +97,6 @@ static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_
                                       const struct pel_camera *second,
                                       const struct pel_render_options *options,
                                       struct pel_render_statistics *statistics) {
-    int width = seen->render.width, height = seen->render.height;
     const struct pel_camera first = seen->camera;
     struct pel_image *both = NULL;
     *statistics = (struct pel_render_statistics){0};
@@ -112,13 +111,13 @@ static struct pel_image *render_apart(struct pel_renderer *renderer, struct pel_
         struct pel_render_statistics of_frame;
         struct pel_image *eye = pel_frame_render(renderer, seen, &one, &of_eye, &of_frame);
         if (eye && !both)
-            both = pel_image_create_undefined(width, 2 * height);
+            both = pel_image_create_undefined(eye->width, 2 * eye->height);
         if (!eye || !both) {
             pel_image_destroy(eye);
             pel_image_destroy(both);
             return NULL;
         }
-        size_t floats = (size_t)width * (size_t)height * 4;
+        size_t floats = (size_t)eye->width * (size_t)eye->height * 4;
         memcpy(both->rgba + (size_t)i * floats, eye->rgba, floats * sizeof *eye->rgba);
         pel_image_destroy(eye);
         add_statistics(statistics, &of_frame, i);

@@ -95,6 +95,8 @@ static void convert_warn(const struct pel_volume *source, const struct pel_volum
 }
 
 struct pel_volume *pel_volume_convert(const struct pel_volume *source, enum pel_voxel_type type) {
+    if (!pel_volume_check_voxels(source))
+        return NULL;
     struct pel_volume *result = pel_volume_create(source->name, source->dims, type);
     size_t count = (size_t)source->dims[0] * 4;
     double *in = pel_allocate(count, sizeof *in), *out = pel_allocate(count, sizeof *out);

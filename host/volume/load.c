@@ -252,7 +252,7 @@ bool pel_volume_save(const struct pel_volume *volume, const char *path) {
             continue;
         struct pel_locale locale;
         pel_locale_begin(&locale);
-        bool good = formats[i].save(volume, path);
+        bool good = pel_volume_check_voxels(volume) && formats[i].save(volume, path);
         pel_locale_finish(&locale);
         if (!good && strncmp(pel_error_message(), path, strlen(path)) != 0)
             pel_fail_in("%s", path);

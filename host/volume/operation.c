@@ -164,6 +164,8 @@ static void pick_middles(struct pel_volume *result, const struct pel_volume *sou
 struct pel_volume *pel_volume_create_like(const struct pel_volume *source, const int dims[3],
                                           enum pel_voxel_type type, const double scale[3],
                                           const double offset[3]) {
+    if (!pel_volume_check_voxels(source))
+        return NULL;
     struct pel_volume *volume = pel_volume_create(source->name, dims, type);
     if (!volume)
         return NULL;

@@ -215,9 +215,23 @@ static void measure_fine(const struct pel_volume *volume, struct pel_statistics 
     statistics->percentiles[100] = statistics->max;
 }
 
+// Of a hypertexture nobody knows more than that densities are 0..1, so all are as likely.
+static void measure_nothing(struct pel_statistics *statistics) {
+    statistics->max = 1;
+    statistics->mean = 0.5;
+    statistics->deviation = sqrt(1 / 12.0);
+    statistics->count = PEL_HISTOGRAM_BINS;
+    for (int i = 0; i < PEL_HISTOGRAM_BINS; i++)
+        statistics->histogram[i] = 1;
+    for (int percent = 0; percent <= 100; percent++)
+        statistics->percentiles[percent] = percent / 100.0;
+}
+
 void pel_volume_measure(const struct pel_volume *volume, struct pel_statistics *statistics) {
     *statistics = (struct pel_statistics){0};
-    if (volume->type == PEL_VOXEL_F32 || volume->type == PEL_VOXEL_RGB8)
+    if (!volume->voxels)
+        measure_nothing(statistics);
+    else if (volume->type == PEL_VOXEL_F32 || volume->type == PEL_VOXEL_RGB8)
         measure_fine(volume, statistics);
     else
         measure_levels(volume, statistics);

@@ -137,7 +137,15 @@ void pel_volume_spacing(const struct pel_volume *volume, double spacing_mm[3]) {
     }
 }
 
+bool pel_volume_check_voxels(const struct pel_volume *volume) {
+    return volume->voxels ||
+           pel_fail(PEL_ERROR_ARGUMENT,
+                    "'%s' is a hypertexture, which has no voxels until it is baked", volume->name);
+}
+
 double pel_volume_value(const struct pel_volume *volume, int i, int j, int k) {
+    if (!volume->voxels)
+        return NAN;
     size_t index =
         ((size_t)k * (size_t)volume->dims[1] + (size_t)j) * (size_t)volume->dims[0] + (size_t)i;
     double raw = 0;

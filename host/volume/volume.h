@@ -13,8 +13,11 @@
 bool pel_volume_check_size(const int64_t dims[3], enum pel_voxel_type type, size_t available_bytes,
                            size_t *bytes);
 
+// False (ARGUMENT) for a hypertexture, which has no voxels until a renderer bakes it.
+bool pel_volume_check_voxels(const struct pel_volume *volume);
+
 // A volume like `source`, of other dimensions and type, whose voxels lie at scale * q + offset of
-// its indices. NULL: MEMORY.
+// its indices. NULL: MEMORY, and ARGUMENT for a hypertexture.
 struct pel_volume *pel_volume_create_like(const struct pel_volume *source, const int dims[3],
                                           enum pel_voxel_type type, const double scale[3],
                                           const double offset[3]);

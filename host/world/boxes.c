@@ -52,20 +52,8 @@ void pel_boxes_bound(struct pel_world *world, const struct part *part,
 // A row of boxes is cut in two where that is likely to cost rays the least (the surface area
 // heuristic, MacDonald & Booth 1990). Rows go by the boxes' lower and upper sides rather than by
 // their middles, because volumes often share one: then a large one comes apart from those in it.
-
-static double box_area(const struct pel_box *box) {
-    double x = (double)box->high[0] - (double)box->low[0],
-           y = (double)box->high[1] - (double)box->low[1],
-           z = (double)box->high[2] - (double)box->low[2];
-    return x * y + y * z + z * x;
-}
-
-static void widen(struct pel_box *box, const struct pel_box *other) {
-    for (int i = 0; i < 3; i++) {
-        box->low[i] = other->low[i] < box->low[i] ? other->low[i] : box->low[i];
-        box->high[i] = other->high[i] > box->high[i] ? other->high[i] : box->high[i];
-    }
-}
+// All cuts of all six rows are tried, which takes too long for the many bricks of accel/bvh.c: that
+// one sorts middles into a few bins.
 
 // Where a box stands in the row of one of six directions.
 static float side_of(const struct pel_box *box, int direction) {
@@ -88,14 +76,14 @@ static int cut_row(const int *row, int count, const struct pel_box *boxes, doubl
     double left[WORLD_PART_MAX];
     struct pel_box joined = boxes[row[0]];
     for (int i = 0; i < count; i++) {
-        widen(&joined, &boxes[row[i]]);
-        left[i] = box_area(&joined) * (i + 1);
+        pel_box_widen(&joined, &boxes[row[i]]);
+        left[i] = pel_box_area(&joined) * (i + 1);
     }
     int best = 0;
     joined = boxes[row[count - 1]];
     for (int i = count - 1; i > 0; i--) {
-        widen(&joined, &boxes[row[i]]);
-        double both = left[i - 1] + box_area(&joined) * (count - i);
+        pel_box_widen(&joined, &boxes[row[i]]);
+        double both = left[i - 1] + pel_box_area(&joined) * (count - i);
         if (both < *cost) {
             *cost = both;
             best = i;
@@ -111,7 +99,7 @@ static int grow(struct bvh_node *nodes, int first, const struct pel_box *boxes, 
     struct bvh_node *node = &nodes[first];
     struct pel_box whole = boxes[row[0]];
     for (int i = 1; i < count; i++)
-        widen(&whole, &boxes[row[i]]);
+        pel_box_widen(&whole, &boxes[row[i]]);
     *node = (struct bvh_node){.link = -1 - row[0]};
     memcpy(node->low, whole.low, sizeof node->low);
     memcpy(node->high, whole.high, sizeof node->high);

@@ -200,6 +200,11 @@ bool pel_scene_measure_bricks(const struct pel_scene *scene, int instance,
         return pel_fail(PEL_ERROR_ARGUMENT, "volume %d of %d", instance, scene->instance_count);
     const struct pel_instance *shown = &scene->instances[instance];
     const struct pel_volume *volume = scene->volumes[shown->volume];
+    if (!volume->voxels)
+        return pel_fail(PEL_ERROR_ARGUMENT,
+                        "volume '%s' is a hypertexture, of whose bricks nobody knows before it is "
+                        "baked",
+                        shown->name);
     struct pel_table table = {0};
     struct pel_grid grid = {.range = NULL};
     uint8_t *active = NULL;

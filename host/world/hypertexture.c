@@ -107,6 +107,9 @@ static bool describe_object(struct recipe *program, const struct pel_volume *obj
         return true;
     if (!object)
         return pel_fail(PEL_ERROR_ARGUMENT, "the recipe grows on a volume, and none was given");
+    if (!object->voxels)
+        return pel_fail(PEL_ERROR_ARGUMENT, "the recipe grows on '%s', which is a hypertexture",
+                        object->name);
     struct pel_statistics *statistics = pel_allocate(1, sizeof *statistics);
     if (!statistics)
         return false;
@@ -171,13 +174,4 @@ struct pel_volume *pel_volume_hypertexture(const char *recipe,
 
 double pel_hypertexture_slope(enum pel_voxel_type type) {
     return type == PEL_VOXEL_U8 ? 1 / 255.0 : type == PEL_VOXEL_U16 ? 1 / 65535.0 : 1;
-}
-
-void pel_hypertexture_measure(struct pel_statistics *statistics) {
-    *statistics = (struct pel_statistics){.max = 1, .mean = 0.5, .deviation = sqrt(1 / 12.0)};
-    statistics->count = PEL_HISTOGRAM_BINS;
-    for (int i = 0; i < PEL_HISTOGRAM_BINS; i++)
-        statistics->histogram[i] = 1;
-    for (int percent = 0; percent <= 100; percent++)
-        statistics->percentiles[percent] = percent / 100.0;
 }

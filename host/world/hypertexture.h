@@ -13,7 +13,4 @@ struct pel_volume *pel_hypertexture_place(struct recipe *program, const char *re
 // What makes densities 0..1 of baked voxels.
 double pel_hypertexture_slope(enum pel_voxel_type type);
 
-// Densities are 0..1, and which of them are frequent is not asked.
-void pel_hypertexture_measure(struct pel_statistics *statistics);
-
 #endif

@@ -16,8 +16,7 @@ int pel_mask_of(const struct pel_instance *instance) {
     return instance->mask.range_count > 0 ? instance->mask.instance : -1;
 }
 
-// Following the masks from one volume on leads back to it, or to none.
-static bool leads_back(const struct pel_scene *scene, int start) {
+bool pel_mask_leads_back(const struct pel_scene *scene, int start) {
     int k = pel_mask_of(&scene->instances[start]);
     for (int steps = 0; k >= 0 && steps < scene->instance_count; steps++) {
         if (k == start)
@@ -52,7 +51,7 @@ bool pel_mask_check(const struct pel_scene *scene) {
         const struct pel_instance *instance = &scene->instances[k];
         if (pel_mask_of(instance) == k)
             return pel_fail(PEL_ERROR_ARGUMENT, "volume '%s': it is its own mask", instance->name);
-        if (leads_back(scene, k))
+        if (pel_mask_leads_back(scene, k))
             return pel_fail(PEL_ERROR_ARGUMENT,
                             "volume '%s': its mask '%s' is masked by it in turn", instance->name,
                             scene->instances[instance->mask.instance].name);

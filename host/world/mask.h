@@ -8,6 +8,9 @@
 // The instance whose values decide where this one is shown, or -1.
 int pel_mask_of(const struct pel_instance *instance);
 
+// True when following the masks from one instance on leads back to it.
+bool pel_mask_leads_back(const struct pel_scene *scene, int start);
+
 // Fails (ARGUMENT) when a mask is none or decides about itself.
 bool pel_mask_check(const struct pel_scene *scene);
 

@@ -137,7 +137,6 @@ static double longest_way_mm(const struct pel_scene *scene) {
         if (instance->hidden)
             continue;
         const struct pel_volume *volume = scene->volumes[instance->volume];
-        double squared[4] = {0};
         // The diagonals of an oblique box differ.
         for (int corner = 0; corner < 4; corner++) {
             double voxels[3], way[3];
@@ -146,8 +145,7 @@ static double longest_way_mm(const struct pel_scene *scene) {
                 voxels[axis] = axis < 2 && (corner >> axis & 1) ? -dims : dims;
             }
             pel_matrix_direction(way, &volume->world_from_voxel, voxels);
-            squared[corner] = pel_dot(way, way);
-            longest = fmax(longest, sqrt(squared[corner]));
+            longest = fmax(longest, pel_length(way));
         }
     }
     return longest > 0 ? longest : 1;

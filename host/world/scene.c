@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/math.h"
 #include "base/memory.h"
@@ -34,6 +35,15 @@ struct pel_instance pel_instance_default(void) {
                                  .filter = PEL_FILTER_LINEAR};
 }
 
+void pel_instance_set_name(struct pel_instance *instance, const char *name) {
+    const char *whole = name && *name ? name : "volume";
+    size_t length = strnlen(whole, sizeof instance->name - 1);
+    while (length > 0 && ((unsigned char)whole[length] & 0xc0) == 0x80)
+        length--;
+    memset(instance->name, 0, sizeof instance->name);
+    memcpy(instance->name, whole, length);
+}
+
 bool pel_instance_copy(struct pel_instance *copy, const struct pel_instance *instance) {
     *copy = *instance;
     copy->transfer = instance->transfer ? pel_transfer_copy(instance->transfer) : NULL;
@@ -44,19 +54,23 @@ void pel_instance_finish(struct pel_instance *instance) {
     pel_transfer_destroy(instance->transfer);
 }
 
+void pel_volume_source_finish(struct pel_volume_source *source) {
+    free(source->file);
+    free(source->recipe);
+    pel_volume_destroy(source->object);
+    *source = (struct pel_volume_source){0};
+}
+
 bool pel_volume_source_copy(struct pel_volume_source *copy,
                             const struct pel_volume_source *source) {
     *copy = *source;
     copy->file = source->file ? pel_copy_text(source->file) : NULL;
     copy->recipe = source->recipe ? pel_copy_text(source->recipe) : NULL;
     copy->object = source->object ? pel_volume_share(source->object) : NULL;
-    return (copy->file || !source->file) && (copy->recipe || !source->recipe);
-}
-
-void pel_volume_source_finish(struct pel_volume_source *source) {
-    free(source->file);
-    free(source->recipe);
-    pel_volume_destroy(source->object);
+    if ((copy->file || !source->file) && (copy->recipe || !source->recipe))
+        return true;
+    pel_volume_source_finish(copy);
+    return false;
 }
 
 void pel_scene_destroy(struct pel_scene *scene) {

@@ -11,6 +11,11 @@ struct pel_instance pel_instance_default(void);
 bool pel_instance_copy(struct pel_instance *copy, const struct pel_instance *instance);
 void pel_instance_finish(struct pel_instance *instance);
 
+// Gives an instance a name, "volume" for NULL or none. One that is too long is cut between
+// characters of UTF-8.
+void pel_instance_set_name(struct pel_instance *instance, const char *name);
+
+// Copies what a source owns; false (MEMORY) leaves the copy owning nothing.
 bool pel_volume_source_copy(struct pel_volume_source *copy, const struct pel_volume_source *source);
 void pel_volume_source_finish(struct pel_volume_source *source);
 

@@ -52,16 +52,6 @@ static bool check_room(const struct pel_scene *scene) {
            pel_fail(PEL_ERROR_ARGUMENT, "there are %d volumes already", PEL_VOLUME_MAX);
 }
 
-// Names are cut where they are too long, between characters of UTF-8.
-static void set_name(struct pel_instance *instance, const char *name) {
-    strncpy(instance->name, name && *name ? name : "volume", sizeof instance->name - 1);
-    size_t length = strlen(instance->name);
-    if (!name || strlen(name) == length)
-        return;
-    while (length > 0 && ((unsigned char)name[length] & 0xc0) == 0x80)
-        instance->name[--length] = '\0';
-}
-
 // A camera that nobody has set has its eye in its target.
 static bool fit_first_view(struct pel_scene *scene) {
     struct pel_camera *camera = &scene->camera;
@@ -108,13 +98,12 @@ int pel_scene_add_volume(struct pel_scene *scene, struct pel_volume *volume,
     instance.transfer = pel_scene_auto_transfer(volume, &scene->statistics[index], NULL);
     if (!instance.transfer) {
         pel_volume_source_finish(&scene->sources[index]);
-        scene->sources[index] = (struct pel_volume_source){0};
         return -1;
     }
     pel_transfer_resolve(instance.transfer, &scene->statistics[index]);
     if (volume->labels)
         instance.filter = PEL_FILTER_NEAREST;
-    set_name(&instance, volume->name);
+    pel_instance_set_name(&instance, volume->name);
     instance.volume = index;
     scene->volumes[scene->volume_count++] = pel_volume_share(volume);
     scene->instances[scene->instance_count++] = instance;

@@ -109,9 +109,7 @@ static bool load_volume(struct pel_scene *scene, struct pel_scene_plan *plan, in
     scene->volumes[*index] = volume;
     if (!pel_volume_source_copy(&scene->sources[*index], &source))
         return false;
-    if (volume->hypertexture)
-        pel_hypertexture_measure(&scene->statistics[*index]);
-    else if (kept < 0)
+    if (kept < 0)
         pel_volume_measure(volume, &scene->statistics[*index]);
     else
         scene->statistics[*index] = before->statistics[kept];

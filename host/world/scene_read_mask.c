@@ -1,9 +1,11 @@
 // scene_read_mask.c - the `mask` of a volume of a scene file, read and written.
 #include "world/scene_plan.h"
-#include "world/scene_write.h"
 
 #include <math.h>
 #include <string.h>
+
+#include "world/mask.h"
+#include "world/scene_write.h"
 
 static const char *const mask_keys[] = {"comment",   "volume", "labels", "ranges",
                                         "threshold", "invert", NULL};
@@ -95,19 +97,12 @@ bool pel_scene_find_mask(struct pel_scene *scene, const struct pel_scene_plan *p
 
 bool pel_scene_check_masks(const struct pel_scene *scene, const struct pel_scene_plan *plan) {
     for (int i = 0; i < scene->instance_count; i++) {
-        int k = i;
-        for (int steps = 0; steps < scene->instance_count; steps++) {
-            const struct pel_mask *mask = &scene->instances[k].mask;
-            if (mask->range_count == 0)
-                break;
-            k = mask->instance;
-            if (k != i)
-                continue;
-            struct pel_scene_node node;
-            pel_node_member(&node, &plan->volume[i].node, "mask");
-            return pel_node_fail(&node, "'%s' is masked by this volume in turn",
-                                 scene->instances[scene->instances[i].mask.instance].name);
-        }
+        struct pel_scene_node node;
+        if (!pel_mask_leads_back(scene, i))
+            continue;
+        pel_node_member(&node, &plan->volume[i].node, "mask");
+        return pel_node_fail(&node, "'%s' is masked by this volume in turn",
+                             scene->instances[scene->instances[i].mask.instance].name);
     }
     return true;
 }

@@ -23,15 +23,6 @@ static const char *const about_names[] = {"centre", NULL};
 // Matrices are written by programs with four digits and more.
 static const double rigid_tolerance = 1e-3;
 
-// How far R R^T is from the identity: 0 for a rotation.
-static double deviation(const struct pel_matrix *matrix) {
-    double worst = 0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j <= i; j++)
-            worst = fmax(worst, fabs(pel_dot(matrix->m[i], matrix->m[j]) - (i == j)));
-    return worst;
-}
-
 static bool read_matrix(struct pel_matrix *matrix, const struct pel_scene_node *node) {
     if (!pel_node_check_list(node, 4, 4))
         return false;
@@ -44,7 +35,7 @@ static bool read_matrix(struct pel_matrix *matrix, const struct pel_scene_node *
     if (last[0] != 0 || last[1] != 0 || last[2] != 0 || last[3] != 1)
         return pel_node_fail(node, "the last row must be 0 0 0 1, not %g %g %g %g", last[0],
                              last[1], last[2], last[3]);
-    double off = deviation(matrix);
+    double off = pel_matrix_deviation(matrix);
     if (!(off <= rigid_tolerance))
         return pel_node_fail(node, "is not rigid: its rows are off a rotation's by %.3g", off);
     if (pel_matrix_determinant(matrix) < 0)

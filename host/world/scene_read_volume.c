@@ -93,7 +93,7 @@ static bool read_name(struct pel_instance *instance, const struct pel_volume_pla
     if (given && (!*name || strlen(name) >= sizeof instance->name))
         return pel_node_fail(&node, "must have 1 to %zu bytes, not %zu", sizeof instance->name - 1,
                              strlen(name));
-    strncpy(instance->name, name, sizeof instance->name - 1);
+    pel_instance_set_name(instance, name);
     return true;
 }
 

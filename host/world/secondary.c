@@ -68,12 +68,6 @@ static void fill_directions(struct pel_world *world, int count, u32 seed) {
     world->bytes.occlusion_count = count;
 }
 
-static double diagonal(const struct world *bytes) {
-    const float4 *low = &bytes->bounds_low, *high = &bytes->bounds_high;
-    return pel_length((double[]){(double)high->x - (double)low->x, (double)high->y - (double)low->y,
-                                 (double)high->z - (double)low->z});
-}
-
 static bool fill_occlusion(struct pel_world *world, const struct pel_ambient_occlusion *occlusion,
                            u32 seed) {
     _Static_assert(OCCLUSION_MAX == PEL_OCCLUSION_DIRECTION_MAX, "a row for each direction");
@@ -87,7 +81,8 @@ static bool fill_occlusion(struct pel_world *world, const struct pel_ambient_occ
                         count, PEL_OCCLUSION_DIRECTION_MAX);
     struct world *bytes = &world->bytes;
     bytes->occlusion_step_mm = or_usual(occlusion->step, step_usual) * bytes->step_mm;
-    bytes->occlusion_radius_mm = or_usual(occlusion->radius_mm, radius_share * diagonal(bytes));
+    bytes->occlusion_radius_mm =
+        or_usual(occlusion->radius_mm, radius_share * pel_world_diagonal_mm(world));
     bytes->occlusion_strength = or_usual(occlusion->strength, 1);
     fill_directions(world, count, seed);
     world->secondary |= SECONDARY_OCCLUSION;

@@ -26,14 +26,6 @@ enum { file_limit = 1 << 20 };
 // digits explain is mended without a word.
 static const double rigid_tolerance = 1e-4, quiet_tolerance = 1e-5;
 
-static double deviation_from_rotation(const struct pel_matrix *matrix) {
-    double most = 0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j <= i; j++)
-            most = fmax(most, fabs(pel_dot(matrix->m[i], matrix->m[j]) - (i == j)));
-    return most;
-}
-
 // The nearest rotation: the orthogonal factor of the polar decomposition, by Newton's iteration
 // R <- (R + R^-T) / 2 (Higham 1986), which squares the error each time.
 static bool orthonormalise(struct pel_matrix *matrix) {
@@ -52,7 +44,7 @@ static bool make_rigid(struct pel_matrix *matrix) {
     for (int i = 0; i < 12; i++)
         if (!isfinite(matrix->m[i / 4][i % 4]))
             return pel_fail(PEL_ERROR_FORMAT, "the matrix is not finite");
-    double deviation = deviation_from_rotation(matrix);
+    double deviation = pel_matrix_deviation(matrix);
     if (!(deviation <= rigid_tolerance))
         return pel_fail(PEL_ERROR_FORMAT,
                         "not a rotation and translation: it scales or shears by %.3g", deviation);

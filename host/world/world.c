@@ -277,6 +277,12 @@ bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
     return good;
 }
 
+double pel_world_diagonal_mm(const struct pel_world *world) {
+    const float4 *low = &world->bytes.bounds_low, *high = &world->bytes.bounds_high;
+    return pel_length((double[]){(double)high->x - (double)low->x, (double)high->y - (double)low->y,
+                                 (double)high->z - (double)low->z});
+}
+
 void pel_world_cells(const struct pel_world *world, int p, size_t cells[3]) {
     const struct part *parts = world->bytes.parts;
     size_t end = p + 1 < world->part_total ? parts[p + 1].cells : world->cell_count;

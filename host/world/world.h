@@ -50,6 +50,9 @@ struct pel_world {
 bool pel_world_build(struct pel_world *world, const struct pel_scene *scene,
                      const struct pel_layout *layout, struct pel_memo *memo);
 
+// The longest way through the box around all volumes.
+double pel_world_diagonal_mm(const struct pel_world *world);
+
 // Whether a pixel takes more than the one ray through its centre.
 bool pel_world_is_supersampled(const struct pel_supersampling *supersampling);
 

@@ -78,6 +78,56 @@ static void test_supersampled(void **state) {
     pel_renderer_destroy(renderer);
 }
 
+static void render_eyes(struct pel_renderer *renderer, const struct pel_scene *scene,
+                        struct pel_image *eyes[2]) {
+    if (!pel_renderer_render_eyes(renderer, scene, NULL, NULL, eyes))
+        fail_msg("%s", pel_error_message());
+}
+
+static void destroy_eyes(struct pel_image *eyes[2]) {
+    pel_image_destroy(eyes[0]);
+    pel_image_destroy(eyes[1]);
+}
+
+// In a debug view each eye has a frame of its own, of the region's size. Without stereo both see
+// the same.
+static void test_eyes_in_debug_views(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
+    struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
+    struct pel_image *eyes[2];
+    scene->render.debug = PEL_DEBUG_SAMPLES;
+    memcpy(scene->render.region, regions[1], sizeof scene->render.region);
+    struct pel_image *one = render_picture(renderer, scene, NULL);
+    render_eyes(renderer, scene, eyes);
+    for (int i = 0; i < 2; i++)
+        assert_pictures_equal(eyes[i], one, "an eye of a debug view");
+    destroy_eyes(eyes);
+    pel_image_destroy(one);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
+// One ray through a pixel's centre looks at no neighbours, whatever is said of contrast.
+static void test_reprojected(void **state) {
+    (void)state;
+    struct pel_renderer *renderer = judge_renderer(PEL_READER_AUTO, 0);
+    struct pel_scene *scene = scene_waves(WIDTH, HEIGHT);
+    struct pel_image *eyes[2], *others[2];
+    scene->stereo =
+        (struct pel_stereo){.kind = PEL_STEREO_TWO_FILES, .separation_mm = 2, .reproject = true};
+    memcpy(scene->render.region, regions[1], sizeof scene->render.region);
+    render_eyes(renderer, scene, eyes);
+    scene->render.supersampling.adaptive = 0.05;
+    render_eyes(renderer, scene, others);
+    for (int i = 0; i < 2; i++)
+        assert_pictures_equal(others[i], eyes[i], "a reprojected eye");
+    destroy_eyes(eyes);
+    destroy_eyes(others);
+    pel_scene_destroy(scene);
+    pel_renderer_destroy(renderer);
+}
+
 static void test_refused(void **state) {
     (void)state;
     static const int bad[][4] = {{0, 0, 25, 1}, {24, 0, 1, 1}, {-1, 0, 2, 2}, {0, 0, 0, 4}, {3}};
@@ -95,10 +145,9 @@ static void test_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plain),
-        cmocka_unit_test(test_interlaced),
-        cmocka_unit_test(test_supersampled),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_plain),        cmocka_unit_test(test_interlaced),
+        cmocka_unit_test(test_supersampled), cmocka_unit_test(test_eyes_in_debug_views),
+        cmocka_unit_test(test_reprojected),  cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

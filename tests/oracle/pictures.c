@@ -6,7 +6,6 @@
 #include "support/oracle.h"
 #include "support/picture.h"
 #include "support/scenes.h"
-#include "support/test.h"
 
 // One picture, or where the phase depends on the ray, a picture patched together from those with
 // this many phases: each pixel comes from the one whose phase is just below its own.
@@ -61,11 +60,5 @@ static void test_picture(void **state) {
 }
 
 int main(void) {
-    oracle_need_data();
-    struct CMUnitTest tests[32];
-    int count = 0;
-    for (const struct oracle_picture *picture = oracle_pictures; picture->file; picture++)
-        tests[count++] = (struct CMUnitTest){
-            .name = picture->file, .test_func = test_picture, .initial_state = (void *)picture};
-    return _cmocka_run_group_tests("pictures", tests, (size_t)count, NULL, NULL);
+    return oracle_run("pictures", test_picture);
 }

@@ -5,7 +5,6 @@
 #include "reference/reference.h"
 #include "support/oracle.h"
 #include "support/scenes.h"
-#include "support/test.h"
 
 enum { STRIDE = 7 };
 
@@ -47,11 +46,5 @@ static void test_picture(void **state) {
 }
 
 int main(void) {
-    oracle_need_data();
-    struct CMUnitTest tests[32];
-    int count = 0;
-    for (const struct oracle_picture *picture = oracle_pictures; picture->file; picture++)
-        tests[count++] = (struct CMUnitTest){
-            .name = picture->file, .test_func = test_picture, .initial_state = (void *)picture};
-    return _cmocka_run_group_tests("reference", tests, (size_t)count, NULL, NULL);
+    return oracle_run("reference", test_picture);
 }

@@ -16,7 +16,6 @@
 #include "reference/ray.h"
 #include "support/picture.h"
 #include "support/scenes.h"
-#include "support/test.h"
 
 #define FOLDER "oracle/"
 
@@ -183,9 +182,15 @@ static struct pel_scene *cuda_scene(void) {
     return scene;
 }
 
-void oracle_need_data(void) {
+int oracle_run(const char *name, CMUnitTestFunction test) {
     test_need_data(FOLDER "camera.json");
     test_need_data("data/bucky32/Bucky.raw");
+    struct CMUnitTest tests[sizeof oracle_pictures / sizeof *oracle_pictures];
+    size_t count = 0;
+    for (const struct oracle_picture *picture = oracle_pictures; picture->file; picture++)
+        tests[count++] = (struct CMUnitTest){
+            .name = picture->file, .test_func = test, .initial_state = (void *)picture};
+    return _cmocka_run_group_tests(name, tests, count, NULL, NULL);
 }
 
 struct pel_scene *oracle_scene(const struct oracle_picture *picture) {

@@ -2,7 +2,7 @@
 #ifndef PEL_TEST_ORACLE_H
 #define PEL_TEST_ORACLE_H
 
-#include "pellucid.h"
+#include "support/test.h"
 
 // One picture of the data folder, and how near two correct renderers are to each other there.
 struct oracle_picture {
@@ -19,8 +19,9 @@ struct oracle_picture {
 // Ends with a row without file.
 extern const struct oracle_picture oracle_pictures[];
 
+// Runs a test for each picture, which is its initial state; returns the program's exit status.
 // Skips the program when the data is missing.
-void oracle_need_data(void);
+int oracle_run(const char *name, CMUnitTestFunction test);
 
 // The scene of a picture. Its background is opaque black, and its picture is what the file holds.
 struct pel_scene *oracle_scene(const struct oracle_picture *picture);

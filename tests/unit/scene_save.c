@@ -1,5 +1,6 @@
 // Tests of saved scenes: loading one gives the same scene, to the last bit, and whatever the schema
 // knows is written. (tests/kernel/scenes.c renders them.)
+#include "support/file.h"
 #include "support/scene_file.h"
 
 #include <glob.h>
@@ -311,6 +312,27 @@ static void test_paths(void **state) {
     rmdir(folder);
 }
 
+// A volume without a name has its file's, as much of it as there is room for: whole characters,
+// or the scene could not be written.
+static void test_long_file_name(void **state) {
+    (void)state;
+    char leaf[128] = "", text[512];
+    while (strlen(leaf) < 80)
+        strcat(leaf, "\xc3\xbc");
+    unsigned char voxels[24] = {0};
+    for (unsigned char i = 0; i < 24; i++)
+        voxels[i] = i;
+    test_write(leaf, voxels, sizeof voxels);
+    snprintf(text, sizeof text, "{'volumes': [{'file': '%s', 'raw': {'dims': [2, 3, 4]}}]}", leaf);
+    struct pel_scene *scene = load(test_write_scene("long.json", text));
+    leaf[62] = '\0';
+    assert_string_equal(scene->instances[0].name, leaf);
+    struct pel_scene *again = save_and_load(scene, test_temporary_path("saved.json"));
+    assert_same_scene(scene, again);
+    pel_scene_destroy(again);
+    pel_scene_destroy(scene);
+}
+
 // A file that is changed stays as it was when the scene cannot be saved.
 static void test_nameless_volume(void **state) {
     (void)state;
@@ -398,10 +420,10 @@ static void test_transfer(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_every_key),
-        cmocka_unit_test(test_paths),      cmocka_unit_test(test_nameless_volume),
-        cmocka_unit_test(test_animation),  cmocka_unit_test(test_look),
-        cmocka_unit_test(test_transfer),
+        cmocka_unit_test(test_round_trip),     cmocka_unit_test(test_every_key),
+        cmocka_unit_test(test_paths),          cmocka_unit_test(test_nameless_volume),
+        cmocka_unit_test(test_long_file_name), cmocka_unit_test(test_animation),
+        cmocka_unit_test(test_look),           cmocka_unit_test(test_transfer),
     };
     return cmocka_run_group_tests(tests, test_write_volumes, NULL);
 }
