@@ -27,7 +27,8 @@ static void test_reference(void **state) {
         " 'camera': {'view': 'left'}, 'render': {'size': [16, 12], 'step_mm': 16}}";
     for (int lanes = 1; lanes <= judge_lanes(4); lanes += 3) {
         struct pel_renderer *renderer = judge_renderer(PEL_READER_BUFFER, lanes);
-        struct pel_scene *scene = test_load_scene("live.json", scene_text, NULL);
+        struct pel_scene *scene =
+            test_load_scene("live.json", scene_text, scene_is_small() ? "render.size=[8,6]" : NULL);
         struct pel_render_statistics statistics;
         pel_image_destroy(judge_render(renderer, scene, &statistics, "live"));
         assert_true(statistics.samples > 0);
