@@ -110,6 +110,7 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct world, width);
     *out++ = OFFSET(struct world, height);
     *out++ = OFFSET(struct world, tiles_x);
+    *out++ = OFFSET(struct world, tiles_y);
     *out++ = OFFSET(struct world, part_count);
     *out++ = OFFSET(struct world, whole_width);
     *out++ = OFFSET(struct world, whole_height);

@@ -11,6 +11,7 @@
 #include "order.cl"
 #include "pixel.cl"
 #include "shade.cl"
+#include "shared/tiles.h"
 #include "sight.cl"
 #include "span.cl"
 #include "style.cl"
@@ -194,10 +195,9 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #include "packet.cl"
 #include "glasses.cl"
 
-// Renders the tiles from `first_tile` on, one packet per work-item, in tiles of TILE_PX x TILE_PX
-// pixels. Writes premultiplied RGBA, rows from the top, and each packet's numbers of samples
-// (SAMPLE_COUNTS). A work-item of two eyes leaves the second one's numbers behind those of all
-// packets of its tile.
+// Renders the tiles from `first_tile` on, one packet per work-item. Writes premultiplied RGBA, rows
+// from the top, and each packet's numbers of samples (SAMPLE_COUNTS). A work-item of two eyes leaves
+// the second one's numbers behind those of all packets of its tile.
 __kernel void render(__constant struct world *world, TABLE_SPACE const uint *table,
                      __global float4 *picture, __global uint *sample_counts, const uint first_tile,
                      __global const uchar *cells RAY_PARAMETERS STRIDE_PARAMETER,
@@ -206,14 +206,14 @@ __kernel void render(__constant struct world *world, TABLE_SPACE const uint *tab
     const uint packets_per_tile = packets_per_row * (TILE_PX / PACKET_H);
     const uint packet = get_global_id(0) % packets_per_tile;
     const uint turn = get_global_id(0) / packets_per_tile + first_tile;
-    const uint tile = EYES == EYES_BOTH ? turn / 2 : turn;
-    // Packets run down GROUP_ROWS rows before they go on to the right, so that a work-group is that
-    // high.
+    const struct tile_place tile =
+        tile_at(EYES == EYES_BOTH ? turn / 2 : turn, world->tiles_x, world->tiles_y);
+    // Packets run down GROUP_ROWS rows, a work-group's height, before they go on to the right.
     const uint band = packet / (packets_per_row * GROUP_ROWS),
                place = packet % (packets_per_row * GROUP_ROWS);
     const uint column = place / GROUP_ROWS, row = band * GROUP_ROWS + place % GROUP_ROWS;
-    const int left = (int)(tile % world->tiles_x * TILE_PX + column * PACKET_W);
-    const int top = (int)(tile / world->tiles_x * TILE_PX + row * PACKET_H);
+    const int left = tile.x * TILE_PX + (int)column * PACKET_W;
+    const int top = tile.y * TILE_PX + (int)row * PACKET_H;
     const uint eyes = EYES == EYES_MERGED ? 2 : 1;
     __global uint *counts = &sample_counts[(turn * eyes * packets_per_tile + packet) * SAMPLE_COUNTS];
     __global uint *second_counts = counts + (eyes - 1) * packets_per_tile * SAMPLE_COUNTS;

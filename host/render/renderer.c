@@ -30,6 +30,7 @@
 #include "render/target.h"
 #include "render/tiles.h"
 #include "render/variant.h"
+#include "shared/tiles.h"
 #include "world/skip.h"
 
 struct pel_renderer {
@@ -153,15 +154,24 @@ static struct pel_kernel *prepare(struct pel_renderer *renderer, const struct pe
     return kernel;
 }
 
+// Gives each pixel the time of its tile.
+static void show_times(struct pel_image *image, const float *tile_ms) {
+    int columns = TILES_ALONG(image->width), rows = TILES_ALONG(image->height);
+    for (int n = 0; n < columns * rows; n++) {
+        struct tile_place tile = tile_at((uint32_t)n, columns, rows);
+        int left = tile.x * TILE_PX, top = tile.y * TILE_PX;
+        for (int y = top; y < top + TILE_PX && y < image->height; y++)
+            for (int x = left; x < left + TILE_PX && x < image->width; x++)
+                image->rgba[4 * ((size_t)y * (size_t)image->width + (size_t)x)] = tile_ms[n];
+    }
+}
+
 // Makes a debug view's picture of what came from the device.
 static bool paint(struct pel_image *image, const struct pel_renderer *renderer, enum pel_debug view,
                   const struct pel_render_options *options,
                   struct pel_render_statistics *statistics) {
-    size_t tiles_x = ((size_t)image->width + TILE_PX - 1) / TILE_PX;
-    for (int y = 0; renderer->pace.tile_ms && y < image->height; y++)
-        for (int x = 0; x < image->width; x++)
-            image->rgba[4 * ((size_t)y * (size_t)image->width + (size_t)x)] =
-                renderer->pace.tile_ms[(size_t)(y / TILE_PX) * tiles_x + (size_t)(x / TILE_PX)];
+    if (renderer->pace.tile_ms)
+        show_times(image, renderer->pace.tile_ms);
     return pel_debug_paint(image, view, options ? options->numbers : NULL, &statistics->debug);
 }
 

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/error.h"
-#include "shared/variant.h"
+#include "shared/tiles.h"
 #include "world/bricks.h"
 #include "world/clip.h"
 #include "world/detail.h"

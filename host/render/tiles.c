@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "base/error.h"
-#include "shared/variant.h"
+#include "shared/tiles.h"
 
 static const double batch_default_ms = 150; // of a batch of tiles, unless the caller says otherwise
 
@@ -15,10 +15,9 @@ static size_t round_up(size_t value, size_t multiple) {
 
 struct pel_tiling pel_tiles_plan(const struct pel_render_settings *settings, int pictures,
                                  int lanes, size_t group) {
-    size_t tiles_x = ((size_t)settings->width + TILE_PX - 1) / TILE_PX;
-    size_t tiles_y = ((size_t)settings->height + TILE_PX - 1) / TILE_PX;
+    size_t tiles = (size_t)TILES_ALONG(settings->width) * (size_t)TILES_ALONG(settings->height);
     size_t packets = TILE_PX * TILE_PX / (size_t)lanes;
-    return (struct pel_tiling){(size_t)pictures * tiles_x * tiles_y, packets, group,
+    return (struct pel_tiling){(size_t)pictures * tiles, packets, group,
                                group > packets ? group / packets : 1};
 }
 
@@ -37,7 +36,10 @@ bool pel_tiles_run(struct pel_pace *pace, struct pel_device *device, struct pel_
     double start_ms = pel_clock_ms();
     double batch_ms = options && options->batch_ms > 0 ? options->batch_ms : batch_default_ms;
     // The frame before may have had cheaper tiles, so the first batch only looks how these are.
-    double batch = pace->tiles_per_ms > 0 ? pace->tiles_per_ms * batch_ms / 4 : FIRST_BATCH;
+    // Those of the border (shared/tiles.h) tell little of what is to come: as they are, batches may
+    // have twice the tiles that they had of the last frame.
+    double usual = pace->tiles_per_ms > 0 ? pace->tiles_per_ms * batch_ms : INFINITY;
+    double batch = pace->tiles_per_ms > 0 ? usual / 4 : FIRST_BATCH;
     for (size_t tile = 0; tile < tiling->tiles;) {
         size_t left = tiling->tiles - tile;
         // A little that would be left alone keeps fewer threads busy than it needs.
@@ -62,7 +64,8 @@ bool pel_tiles_run(struct pel_pace *pace, struct pel_device *device, struct pel_
             !options->progress(finished / pass.count, options->user))
             return pel_fail(PEL_ERROR_ARGUMENT, "the frame was abandoned");
         // The next batch aims at the set time, but one measurement makes it grow fourfold at most.
-        batch = fmin((double)count / fmax(took_ms, 0.05) * batch_ms, 4.0 * (double)count);
+        batch = (double)count / fmax(took_ms, 0.05) * batch_ms;
+        batch = fmin(batch, fmin(4.0 * (double)count, 2.0 * usual));
     }
     pace->tiles_per_ms = (double)tiling->tiles / fmax(pel_clock_ms() - start_ms, 0.05);
     return true;

@@ -8,6 +8,7 @@
 #include "accel/grid.h"
 #include "base/error.h"
 #include "base/math.h"
+#include "shared/tiles.h"
 #include "world/boxes.h"
 #include "world/brick.h"
 #include "world/clip.h"
@@ -143,7 +144,8 @@ static void fill_frame(struct pel_world *world, const struct pel_scene *scene,
     bytes->height = part ? settings->region[3] : settings->height;
     bytes->whole_width = settings->width;
     bytes->whole_height = settings->height;
-    bytes->tiles_x = (bytes->width + TILE_PX - 1) / TILE_PX;
+    bytes->tiles_x = TILES_ALONG(bytes->width);
+    bytes->tiles_y = TILES_ALONG(bytes->height);
     const struct pel_supersampling *supersampling = &settings->supersampling;
     bytes->rays_n = supersampling->n > 1 ? supersampling->n : 1;
     bytes->pattern = (i32)supersampling->pattern;

@@ -119,9 +119,6 @@
 #define PARTS_ENTERED 4    // and parts that the packet came to
 #define SAMPLE_COUNTS 5
 
-// Pixels along a side of the square tiles in which work is handed out.
-#define TILE_PX 16
-
 // Voxels are bound as this many buffers, so that a quarter of the device's memory each, which
 // OpenCL guarantees, is all of it.
 #define VOXEL_BUFFERS 4

@@ -109,7 +109,7 @@ struct world {
     float termination; // opacity beyond which a ray ends; above 1: never
     i32 origin_bounds; // 1: samples count from the bounds, 0: from the nearest part
     i32 width, height; // in pixels, of the picture or of the part of it that is rendered
-    i32 tiles_x;       // tiles in a row of that
+    i32 tiles_x, tiles_y; // tiles in a row and in a column of that (shared/tiles.h)
     i32 part_count;
     i32 whole_width, whole_height; // of the whole picture
     i32 left, top;                 // where the part lies in it
@@ -125,7 +125,6 @@ struct world {
     i32 pictures; // above each other, one of each eye: 1 or 2
     i32 row_px, eye_px; // EYES_BOTH: pixels from one row to the next, and from one picture to the other
     float stride_depth; // how much optical depth a run of samples may vary
-    i32 pad[1];
     i32 merge_linear; // EYES_MERGED: 1: the matrix acts on linear light, 0: on values as they are stored
     float4 merge[6];  // and its columns: red, green, blue of the first eye, then of the second
     float4 merged_background; // what it makes of two backgrounds

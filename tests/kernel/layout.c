@@ -94,6 +94,7 @@ static const struct {
     AT(world, width),
     AT(world, height),
     AT(world, tiles_x),
+    AT(world, tiles_y),
     AT(world, part_count),
     AT(world, whole_width),
     AT(world, whole_height),
