@@ -162,8 +162,12 @@ static int rows_of(const struct way *way) {
 static void test_way(void **state) {
     const struct way *way = *state;
     int w = (int)(way - ways), rows = rows_of(way);
-    if (rows == 0)
+    if (rows == 0) {
+        print_message(
+            "skipped: %d lanes take this compiler minutes; PELLUCID_TEST_ALL=1 has them\n",
+            way->lanes);
         skip();
+    }
     struct pel_renderer *renderer = judge_renderer(way->reader, way->lanes);
     if (way->reader == PEL_READER_IMAGE) {
         struct choice choice = choose(w, 0, 0);
