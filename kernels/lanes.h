@@ -136,6 +136,24 @@ INLINE bool any_lane(mask m) {
 #endif
 }
 
+// Indices of each lane as plain numbers. They go through memory, because two dozen instructions
+// would take them out of a vector register one by one.
+struct indices {
+    uint of[LANES];
+};
+
+INLINE struct indices spread_indices(integer v) {
+#if LANES == 1
+    const struct indices at = {{(uint)v}};
+#else
+#define LANE_INDEX(lane) memory[lane]
+    volatile integer kept = v;
+    const volatile uint *memory = (const volatile uint *)&kept;
+    const struct indices at = {{LANE_NUMBERS(LANE_INDEX)}};
+#endif
+    return at;
+}
+
 // The least of an integer over all lanes.
 INLINE int least_lane(integer v) {
 #if LANES == 1

@@ -42,35 +42,28 @@ struct cell {
 // The index of a voxel, from the part's first, with the next ones along all axes in the same brick.
 INLINE integer voxel_index(__constant struct part *part, integer x, integer y,
                            integer z PAGES_PARAMETER) {
-    const integer inside = BRICK_SIDE - 1;
-    integer brick = (z >> BRICK_BITS) * part->brick_slice +
-                    (y >> BRICK_BITS) * part->brick_row + (x >> BRICK_BITS);
+    const integer bx = x >> BRICK_BITS, by = y >> BRICK_BITS, bz = z >> BRICK_BITS;
 #if POOL
-    brick += (int)part->ranges;
-    brick = GATHER(int, LOAD_PAGE, brick);
-#endif
-    return brick * BRICK_VOXELS_OF(BORDER) + (z & inside) * BRICK_SLICE +
+    const integer inside = BRICK_SIDE - 1;
+    const integer page = bz * part->brick_slice + by * part->brick_row + bx + (int)part->ranges;
+    return GATHER(int, LOAD_PAGE, page) * BRICK_VOXELS_OF(BORDER) + (z & inside) * BRICK_SLICE +
            (y & inside) * BRICK_ROW + (x & inside) + BRICK_FIRST_OF(BORDER);
+#else
+    // As if all were one brick, in floats, which are exact there (BRICK_ALONG_MAX) and have one instruction to multiply
+    // and add; and for every brick before, what lies between that and its true place.
+    const int bricks = BRICK_VOXELS_OF(BORDER);
+    const integer one =
+        TO_INTEGER(TO_REAL(z) * (float)BRICK_SLICE + (TO_REAL(y) * (float)BRICK_ROW + TO_REAL(x)));
+    return bz * (part->brick_slice * bricks - BRICK_SIDE * BRICK_SLICE) +
+           by * (part->brick_row * bricks - BRICK_SIDE * BRICK_ROW) + bx * (bricks - BRICK_SIDE) +
+           (one + BRICK_FIRST_OF(BORDER));
+#endif
 }
 
 #define LOAD(at) row[at]
 #define LOAD_NEXT(at) row[(at) + 1]
 
 #if VOXELS & (VOXELS_U8 | VOXELS_U16)
-// Indices of each lane as plain numbers. They go through memory, because two dozen instructions would take them out of
-// a vector register one by one.
-struct indices {
-    uint of[LANES];
-};
-
-INLINE struct indices spread_indices(integer v) {
-#define INDEX(lane) memory[lane]
-    volatile integer kept = v;
-    const volatile uint *memory = (const volatile uint *)&kept;
-    const struct indices at = {{LANE_NUMBERS(INDEX)}};
-    return at;
-}
-
 // Words that begin at any element.
 struct __attribute__((packed, aligned(2))) loose_word {
     int word;

@@ -7,6 +7,7 @@
 #include "accel/grid.h"
 #include "base/error.h"
 #include "shared/grid.h"
+#include "volume/volume.h"
 #include "world/brick.h"
 #include "world/model.h"
 #include "world/style.h"
@@ -20,6 +21,8 @@ static const uint64_t slab_alignment = 256;
 // Slices of its neighbour that a slab repeats: the gradient at a place less than one voxel beyond
 // its own needs a place one voxel further, and a cubic filter the voxel behind the next there.
 enum { CUT_BORDER = 3 };
+
+_Static_assert(PEL_DIMENSION_MAX + 2 <= BRICK_ALONG_MAX, "no volume is too wide for bricks");
 
 int pel_voxel_class(enum pel_voxel_type type) {
     switch (type) {
@@ -126,8 +129,10 @@ static bool plan_buffers(struct pel_layout *layout, const struct pel_scene *scen
             continue;
         }
         uint64_t layer = layer_bytes(volume, layout->border);
-        uint64_t most =
-            limit / layer * BRICK_SIDE; // slices that fit into one buffer, border included
+        // Slices that fit into one buffer, border included.
+        uint64_t most = limit / layer * BRICK_SIDE;
+        if (most > BRICK_SLICES_MAX)
+            most = BRICK_SLICES_MAX;
         bool whole = most >= (uint64_t)volume->dims[2] + 2;
         if (!whole && most == 0)
             return pel_fail(PEL_ERROR_DEVICE,

@@ -30,6 +30,11 @@
 #define BRICK_FIRST_OF(border)                                                                     \
     (BRICK_LEAD + (border) * (BRICK_SLICE_OF(border) + BRICK_ROW_OF(border) + 1))
 
+// The most voxels of a part along x and along y, and along z, its border included: with them the
+// places that kernels work out in floats are exact.
+#define BRICK_ALONG_MAX (1 << 17)
+#define BRICK_SLICES_MAX (1 << 15)
+
 // Of bricks without a border.
 #define BRICK_VOXELS BRICK_VOXELS_OF(0)
 
@@ -37,5 +42,8 @@ SHARED_ASSERT(BRICK_LEAD + BRICK_SLICE_OF(0) * BRICK_ROW_OF(0) + 6 <= BRICK_VOXE
               brick_voxels);
 SHARED_ASSERT(BRICK_LEAD + BRICK_SLICE_OF(1) * BRICK_ROW_OF(1) + 6 <= BRICK_VOXELS_OF(1),
               bordered_brick_voxels);
+SHARED_ASSERT(BRICK_SLICES_MAX * BRICK_SLICE_OF(1) + BRICK_ALONG_MAX * (BRICK_ROW_OF(1) + 1) <
+                  1 << 24,
+              brick_places_in_floats);
 
 #endif

@@ -1,6 +1,7 @@
 // mixing.c - every way to mix against the reference, by rays and by packets, whole and in slabs,
 // and however empty space is skipped.
 #include "base/math.h"
+#include "shared/brick.h"
 #include "support/judge.h"
 #include "support/picture.h"
 #include "support/render.h"
@@ -93,10 +94,33 @@ static void test_slabs_and_skips(void **state) {
     pel_scene_destroy(scene);
 }
 
+// A volume so long that it is cut whatever the device takes, seen where its slabs meet: places
+// there are the largest that kernels work out in floats.
+static void test_long_volume(void **state) {
+    (void)state;
+    const int length = BRICK_SLICES_MAX + 200, seen = BRICK_SLICES_MAX - 5;
+    struct pel_scene *scene = scene_create(16, 12);
+    struct pel_volume *volume =
+        scene_volume_waves((int[]){6, 7, length}, PEL_VOXEL_U8, 5, scene_is_small() ? 30 : 40);
+    scene_place(volume, (double[]){1, 1, 1}, (double[]){0, 0.5, 0, 0.5},
+                (double[]){0.5 * length - seen, 0, 0}, false);
+    scene_add(scene, volume, scene_transfer_gentle((double[]){0, 255}, 0.3, 7));
+    scene->render.skip = PEL_SKIP_NONE;
+    scene->background[3] = 1;
+    for (int packets = 0; packets < 2; packets++) {
+        struct pel_renderer *renderer =
+            judge_renderer(PEL_READER_BUFFER, packets ? judge_packet_lanes() : 1);
+        pel_image_destroy(judge_render(renderer, scene, NULL, "long"));
+        pel_renderer_destroy(renderer);
+    }
+    pel_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_against_reference),
         cmocka_unit_test(test_slabs_and_skips),
+        cmocka_unit_test(test_long_volume),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
