@@ -167,11 +167,11 @@ INLINE void follow_voxels(__constant struct world *world, TABLE_SPACE const uint
             sample_part(MEMORY_ARGUMENTS, part, TO_REAL(place.x.voxel), TO_REAL(place.y.voxel),
                         TO_REAL(place.z.voxel));
         *samples -= present;
-        const struct entry entry = find_entry(part, sample.raw, &present);
-        real amount = CHOOSE((real)(0.0f), (end - t) * entry_strength(table, &entry), present);
+        const struct entry entry = find_entry(table, part, sample.raw, &present);
+        real amount = CHOOSE((real)(0.0f), (end - t) * entry.strength, present);
         if (any_lane(MASK(amount > 0.0f))) {
             real r, g, b;
-            entry_colour(table, &entry, &r, &g, &b);
+            entry_colour(&entry, &r, &g, &b);
 #if VOXELS & VOXELS_RGBA
             if (IS_CLASS(part, VOXELS_RGBA)) {
                 r = sample.r;

@@ -75,12 +75,12 @@ INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table
 #endif
 #if MODELS & (MODELS_THESIS | MODELS_PROJECTION)
     mask present = spot.present;
-    const struct entry entry = find_entry(spot.part, sample->raw, &present);
-    const real strength = entry_strength(table, &entry);
+    const struct entry entry = find_entry(table, spot.part, sample->raw, &present);
+    const real strength = entry.strength;
 #if MODELS & MODELS_THESIS
     if (spot.part->model == MODEL_THESIS) {
         real r, g, b;
-        entry_colour(table, &entry, &r, &g, &b);
+        entry_colour(&entry, &r, &g, &b);
 #if VOXELS & VOXELS_RGBA
         if (IS_CLASS(spot.part, VOXELS_RGBA)) {
             r = sample->r;

@@ -70,12 +70,13 @@ static mask occupied(__constant struct part *part, real low, real high, __global
 #endif
     // Interpolation rounds; one value everywhere does not.
     const real slack = CHOOSE((real)(0.0f), (real)(1e-3f), MASK(low < high));
-    const real a = CHOOSE((real)(0.0f), low, some) * part->table_scale + part->table_bias;
-    const real b = CHOOSE((real)(0.0f), high, some) * part->table_scale + part->table_bias;
     const bool between = linear && !part->table_nearest;
-    const real nearest = (real)(between ? 0.0f : 0.5f), end = (real)(part->table_last);
-    const real least = AT_MOST(AT_LEAST(AT_MOST(a, b) - slack, 0.0f), end) + nearest;
-    const real most = AT_MOST(AT_LEAST(AT_LEAST(a, b) + slack, 0.0f), end) + nearest;
+    const float shift = between ? 0.0f : 0.5f, bias = part->table_bias + shift;
+    const real a = CHOOSE((real)(0.0f), low, some) * part->table_scale + bias;
+    const real b = CHOOSE((real)(0.0f), high, some) * part->table_scale + bias;
+    const real end = (real)(part->table_last + shift);
+    const real least = AT_MOST(AT_LEAST(AT_MOST(a, b) - slack, 0.0f), end);
+    const real most = AT_MOST(AT_LEAST(AT_LEAST(a, b) + slack, 0.0f), end);
     integer first = TO_INTEGER(least), last = TO_INTEGER(most);
     if (between)
         last = CHOOSE(last, last + 1, MASK(TO_REAL(last) < most));

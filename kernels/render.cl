@@ -146,7 +146,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             seen = true;
             expected |= 1UL << c;
             real r, g, b;
-            entry_colour(table, &sight.entry, &r, &g, &b);
+            entry_colour(&sight.entry, &r, &g, &b);
 #if VOXELS & VOXELS_RGBA
             if (IS_CLASS(part, VOXELS_RGBA)) {
                 r = sight.sample.r;

@@ -119,8 +119,8 @@ INLINE real obstacle_strength(TABLE_SPACE const uint *table, __constant struct p
         return CHOOSE(zero, pair_strength(table, part, CHOOSE(zero, raw, present)), present);
     }
 #endif
-    const struct entry entry = find_entry(part, raw, &present);
-    real strength = CHOOSE(zero, entry_strength(table, &entry), present);
+    const struct entry entry = find_entry(table, part, raw, &present);
+    real strength = CHOOSE(zero, entry.strength, present);
 #if STYLE
     if (part->styled && any_lane(MASK(strength > 0.0f))) {
         real slope;

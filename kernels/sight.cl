@@ -49,8 +49,8 @@ INLINE void look(TABLE_SPACE const uint *table, MEMORY_PARAMETERS, __constant st
         if (part->model != MODEL_ABSORPTION)
             return;
 #endif
-        sight->entry = find_entry(part, sight->sample.raw, present);
-        sight->strength = entry_strength(table, &sight->entry);
+        sight->entry = find_entry(table, part, sight->sample.raw, present);
+        sight->strength = sight->entry.strength;
         sight->visible = *present & MASK(sight->strength > 0.0f);
 #if BRICK_GRADIENT
         if (around || !looks_around || !any_lane(sight->visible))

@@ -157,14 +157,19 @@ bool pel_memo_append(struct pel_memo_words *words, size_t count, u32 **added) {
 
 bool pel_memo_place(struct pel_memo *memo, struct pel_memo_table *table) {
     size_t words = table->entries * PEL_STRENGTH_WORDS, visible = table->seen_entries + 1;
-    size_t word_place = memo->words.count, visible_place = memo->visible.count;
-    if (!make_room(&memo->words, words) || !make_room(&memo->visible, visible))
+    // Kernels load two entries at once, so an empty one lies before and behind each table.
+    size_t word_place = memo->words.count + PEL_STRENGTH_WORDS, visible_place = memo->visible.count;
+    if (!make_room(&memo->words, words + 2 * PEL_STRENGTH_WORDS) ||
+        !make_room(&memo->visible, visible))
         return false;
     // Since then only what lies before has been written, by the tables before this one.
     bool there = table->frame > 0 && table->frame == memo->frame - 1 &&
                  table->word_place == word_place && table->visible_place == visible_place;
     if (!there) {
-        memcpy(memo->words.words + word_place, table->words, words * sizeof *table->words);
+        u32 *place = memo->words.words + word_place;
+        memset(place - PEL_STRENGTH_WORDS, 0, PEL_STRENGTH_WORDS * sizeof *place);
+        memcpy(place, table->words, words * sizeof *place);
+        memset(place + words, 0, PEL_STRENGTH_WORDS * sizeof *place);
         memcpy(memo->visible.words + visible_place, table->visible,
                visible * sizeof *table->visible);
         memo->words.version++;

@@ -43,10 +43,10 @@ INLINE struct light projection_layer(TABLE_SPACE const uint *table, __constant s
                                      const struct projection *projection) {
     mask present = (mask)(-1);
     const real share = 1.0f / AT_LEAST(projection->count, (real)(1.0f));
-    const struct entry entry = find_entry(part, projection->raw * share, &present);
+    const struct entry entry = find_entry(table, part, projection->raw * share, &present);
     struct light layer;
-    layer.a = entry_strength(table, &entry);
-    entry_colour(table, &entry, &layer.r, &layer.g, &layer.b);
+    layer.a = entry.strength;
+    entry_colour(&entry, &layer.r, &layer.g, &layer.b);
 #if VOXELS & VOXELS_RGBA
     if (IS_CLASS(part, VOXELS_RGBA)) {
         layer.r = projection->r * share;
