@@ -84,10 +84,29 @@ INLINE struct entry find_entry(TABLE_SPACE const uint *table, __constant struct 
     return entry;
 }
 
+#if MODELS & MODELS_PREINTEGRATED
+// Where a value lies in one direction of a table of pairs: the entry below, and the weight of the
+// one above.
+struct side {
+    integer entry;
+    real weight;
+};
+
+INLINE struct side find_side(__constant struct part *part, real raw) {
+    real x = raw * part->table_scale + part->table_bias;
+    x = AT_LEAST(x, (real)(0.0f));
+    x = AT_MOST(x, (real)(part->table_last));
+    struct side side;
+    side.entry = min(TO_INTEGER(x), (integer)(PAIR_ENTRIES - 2));
+    side.weight = x - TO_REAL(side.entry);
+    return side;
+}
+#endif
+
 #define LOAD_STRENGTH(at) as_float(table[at])
 #define LOAD_COLOUR(at) (int)table[(at) + 1]
 
-// A colour's red, green or blue, from bit `first` on.
+// A colour's red, green or blue, from bit `first` on. The two bits behind blue are 0.
 INLINE real ten_bits(integer colour, int first) {
     const integer bits = colour >> first;
     return TO_REAL(first < 20 ? bits & 1023 : bits) * (1.0f / 1023.0f);

@@ -76,7 +76,6 @@ INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table
 #if MODELS & (MODELS_THESIS | MODELS_PROJECTION)
     mask present = spot.present;
     const struct entry entry = find_entry(table, spot.part, sample->raw, &present);
-    const real strength = entry.strength;
 #if MODELS & MODELS_THESIS
     if (spot.part->model == MODEL_THESIS) {
         real r, g, b;
@@ -88,13 +87,13 @@ INLINE mask gather(__constant struct world *world, TABLE_SPACE const uint *table
             b = sample->b;
         }
 #endif
-        seen = gather_thesis(gathered, &spot, r, g, b, strength);
+        seen = gather_thesis(gathered, &spot, r, g, b, entry.strength);
     }
 #endif
 #if MODELS & MODELS_PROJECTION
     if (IS_PROJECTION(spot.part)) {
         gather_projection(gathered, light, &spot, sample);
-        seen = present & MASK(strength > 0.0f);
+        seen = present & MASK(entry.strength > 0.0f);
     }
 #endif
     if (!any_lane(seen))

@@ -136,7 +136,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
 #endif
 #if PROBE
             log_sample(crossing, c, i, length, x, y, z, sight.sample.raw,
-                       sight.visible ? sight.strength : 0, layer->a);
+                       sight.visible ? sight.entry.strength : 0, layer->a);
 #endif
             expected &= ~(1UL << c);
             if (!any_lane(sight.visible)) {
@@ -163,7 +163,7 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             log_colour(crossing, r, g, b);
 #endif
             mix_add(&mixture, layer, part, r, g, b,
-                    CHOOSE(zero, RUN_STRENGTH(sight.strength, length), sight.visible));
+                    CHOOSE(zero, RUN_STRENGTH(sight.entry.strength, length), sight.visible));
         }
 
 #if MIXING == MIXING_ORDERED

@@ -86,12 +86,9 @@ INLINE real cross_surfaces(__constant struct part *part, __global const uchar *c
 #if MODELS & MODELS_PREINTEGRATED
 // The strength of a value that stays from one sample to the next.
 INLINE real pair_strength(TABLE_SPACE const uint *table, __constant struct part *part, real raw) {
-    real x = raw * part->table_scale + part->table_bias;
-    x = AT_LEAST(x, (real)(0.0f));
-    x = AT_MOST(x, (real)(part->table_last));
-    const integer entry = min(TO_INTEGER(x), (integer)(PAIR_ENTRIES - 2));
-    const real w = x - TO_REAL(entry);
-    const integer word = entry * ((PAIR_ENTRIES + 1) * 2) + (int)part->table;
+    const struct side side = find_side(part, raw);
+    const real w = side.weight;
+    const integer word = side.entry * ((PAIR_ENTRIES + 1) * 2) + (int)part->table;
     real depth = (real)(0.0f);
     for (int n = 0; n < 4; n++) {
         const integer at = word + ((n & 2 ? PAIR_ENTRIES : 0) + (n & 1)) * 2;

@@ -25,7 +25,6 @@ struct sight {
     struct surroundings around; // where the part looks around and something is visible
 #endif
     struct entry entry;
-    real strength;
     mask visible;
 };
 
@@ -50,8 +49,7 @@ INLINE void look(TABLE_SPACE const uint *table, MEMORY_PARAMETERS, __constant st
             return;
 #endif
         sight->entry = find_entry(table, part, sight->sample.raw, present);
-        sight->strength = sight->entry.strength;
-        sight->visible = *present & MASK(sight->strength > 0.0f);
+        sight->visible = *present & MASK(sight->entry.strength > 0.0f);
 #if BRICK_GRADIENT
         if (around || !looks_around || !any_lane(sight->visible))
             return;

@@ -25,7 +25,8 @@ INLINE void style(FRAME_PARAMETERS, __constant struct part *part, MEMORY_PARAMET
     const struct vector normal = make_normal(part, difference, &slope);
 #if STYLE
     if (part->styled)
-        sight->strength = scale_strength(sight->strength, style_factor(part, ray, &normal, slope));
+        sight->entry.strength =
+            scale_strength(sight->entry.strength, style_factor(part, ray, &normal, slope));
     if (part->shading == SHADING_NONE)
         return;
 #endif

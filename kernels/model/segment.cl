@@ -11,23 +11,6 @@
 #include "model/surface.cl"
 
 #if MODELS & MODELS_PREINTEGRATED
-// Where a value lies in one direction of the table: the entry below, and the weight of the one
-// above.
-struct side {
-    integer entry;
-    real weight;
-};
-
-INLINE struct side find_side(__constant struct part *part, real raw) {
-    real x = raw * part->table_scale + part->table_bias;
-    x = AT_LEAST(x, (real)(0.0f));
-    x = AT_MOST(x, (real)(part->table_last));
-    struct side side;
-    side.entry = min(TO_INTEGER(x), (integer)(PAIR_ENTRIES - 2));
-    side.weight = x - TO_REAL(side.entry);
-    return side;
-}
-
 // What the step before the spot shows. Colours are weighted by strength, as those of entries that
 // show nothing mean nothing.
 INLINE mask gather_segment(__constant struct world *world, TABLE_SPACE const uint *table,
