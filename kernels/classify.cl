@@ -57,19 +57,28 @@ INLINE void load_entries(TABLE_SPACE const uint *table, const struct indices *at
 #endif
 }
 
-// Finds the entry in the part's table. Clears the lanes of *present whose value is absent (NaN).
-INLINE struct entry find_entry(TABLE_SPACE const uint *table, __constant struct part *part, real raw,
-                               mask *present) {
-    // Taken to the nearest entry, but where the table is read between its entries.
-    const float shift = TABLE_LINEAR && !part->table_nearest ? 0.0f : 0.5f;
-    real x = raw * part->table_scale + (part->table_bias + shift);
+// What makes a place in the part's table, cut off, the entry that is read there: the nearest, but
+// where the table is read between its entries.
+INLINE float table_shift(__constant struct part *part) {
+    return TABLE_LINEAR && !part->table_nearest ? 0.0f : 0.5f;
+}
+
+// Where values lie in the part's table. Clears the lanes of *present whose value is absent (NaN).
+INLINE real table_place(__constant struct part *part, real raw, mask *present) {
+    const real x = raw * part->table_scale + (part->table_bias + table_shift(part));
 #if VOXELS & VOXELS_F32
     const mask absent = MASK(x != x);
     *present &= ~absent;
-    x = CHOOSE(x, (real)(0.0f), absent);
+    return CHOOSE(x, (real)(0.0f), absent);
+#else
+    return x;
 #endif
+}
+
+// The entry at a place of the part's table.
+INLINE struct entry entry_at(TABLE_SPACE const uint *table, __constant struct part *part, real x) {
     x = AT_LEAST(x, (real)(0.0f));
-    x = AT_MOST(x, (real)(part->table_last + shift));
+    x = AT_MOST(x, (real)(part->table_last + table_shift(part)));
     const integer number = TO_INTEGER(x);
     const struct indices at = spread_indices(number);
     struct entry entry;
@@ -82,6 +91,12 @@ INLINE struct entry find_entry(TABLE_SPACE const uint *table, __constant struct 
     entry.strength = mix_lanes(entry.strength, above, entry.weight);
 #endif
     return entry;
+}
+
+// The entry of a value. Clears the lanes of *present whose value is absent.
+INLINE struct entry find_entry(TABLE_SPACE const uint *table, __constant struct part *part, real raw,
+                               mask *present) {
+    return entry_at(table, part, table_place(part, raw, present));
 }
 
 #if MODELS & MODELS_PREINTEGRATED

@@ -53,6 +53,8 @@ __kernel void describe(__global uint *out) {
     *out++ = OFFSET(struct part, table_bias);
     *out++ = OFFSET(struct part, table_last);
     *out++ = OFFSET(struct part, table);
+    *out++ = OFFSET(struct part, seen_from);
+    *out++ = OFFSET(struct part, seen_to);
     *out++ = OFFSET(struct part, offset);
     *out++ = OFFSET(struct part, brick_row);
     *out++ = OFFSET(struct part, brick_slice);

@@ -48,8 +48,12 @@ INLINE void look(TABLE_SPACE const uint *table, MEMORY_PARAMETERS, __constant st
         if (part->model != MODEL_ABSORPTION)
             return;
 #endif
-        sight->entry = find_entry(table, part, sight->sample.raw, present);
-        sight->visible = *present & MASK(sight->entry.strength > 0.0f);
+        const real place = table_place(part, sight->sample.raw, present);
+        sight->visible = *present & MASK(place >= part->seen_from) & MASK(place < part->seen_to);
+        if (!any_lane(sight->visible))
+            return;
+        sight->entry = entry_at(table, part, place);
+        sight->visible &= MASK(sight->entry.strength > 0.0f);
 #if BRICK_GRADIENT
         if (around || !looks_around || !any_lane(sight->visible))
             return;

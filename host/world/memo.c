@@ -95,11 +95,15 @@ static bool list_visible(struct pel_memo_table *memo) {
     if (!memo->visible)
         return false;
     memo->visible[memo->seen_entries] = (u32)memo->seen_entries;
+    memo->seen_end = 0;
     for (size_t i = memo->seen_entries; i-- > 0;) {
         float strength;
         memcpy(&strength, &memo->seen[PEL_STRENGTH_WORDS * i], sizeof strength);
         bool glows = memo->form.glows && memo->seen[PEL_STRENGTH_WORDS * i + 1] != 0;
-        memo->visible[i] = strength > 0 || glows ? (u32)i : memo->visible[i + 1];
+        bool seen = strength > 0 || glows;
+        memo->visible[i] = seen ? (u32)i : memo->visible[i + 1];
+        if (seen && memo->seen_end == 0)
+            memo->seen_end = i + 1;
     }
     return true;
 }

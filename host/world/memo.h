@@ -40,8 +40,9 @@ struct pel_memo_table {
     size_t entries;                // of them
     const u32 *seen;               // entries that tell which values can be seen: the words, or
     size_t seen_entries;           // those beside the words of pairs
-    u32 *visible;   // owned; the first of these from each one on that can be seen, one more
-    uint64_t frame; // in which both were last put among those of all, from there on:
+    u32 *visible;    // owned; the first of these from each one on that can be seen, one more
+    size_t seen_end; // behind the last of them
+    uint64_t frame;  // in which both were last put among those of all, from there on:
     size_t word_place, visible_place;
     struct pel_memo_shown shown;
 };

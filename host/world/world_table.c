@@ -2,8 +2,10 @@
 // entry for what it reads.
 //
 // A table's words are those of world/strength.h; the tables of all instances lie one after the
-// other, and so do the visible of visible entries, one more than a table has entries.
+// other, and so do the lists of visible entries, one more than a table has entries.
 #include "world/world_table.h"
+
+#include <math.h>
 
 #include "base/error.h"
 #include "world/mixing.h"
@@ -26,6 +28,14 @@ static void fill_table_address(struct part *part, const struct pel_volume *volum
     part->table_bias = (float)((volume->intercept + volume->slope * bias - table->low) * entries);
     part->table_last = (float)last;
     part->table_nearest = table->nearest;
+}
+
+// Between which entries a value shows something. One that lies before the first by less than an
+// entry may be read between both, and what lies outside a table is shown as its end.
+static void fill_seen(struct part *part, const struct pel_memo_table *table) {
+    float from = (float)table->visible[0], to = (float)table->seen_end;
+    part->seen_from = from > 0 ? from - 1 : -INFINITY;
+    part->seen_to = to > part->table_last ? INFINITY : to;
 }
 
 // The length that one sample of the instance stands for.
@@ -75,6 +85,7 @@ bool pel_world_add_table(struct pel_world *world, const struct pel_scene *scene,
     part->visible = (u32)table->visible_place;
     int last = pairs ? PAIR_ENTRIES - 1 : (int)table->entries - 2;
     fill_table_address(part, scene->volumes[instance->volume], &ends, last, layout->reader);
+    fill_seen(part, table);
     return true;
 }
 

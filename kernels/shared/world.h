@@ -94,11 +94,13 @@ struct part {
     float variation_scale; // of one for each entry of what is this many entries here
     i32 stride_max;        // the longest run of samples that may have one stand for them: 1, 2 or 4
     i32 stride_nought;     // 1: something may appear or change anywhere; variation counts from nothing
+    float seen_from, seen_to;   // table entries outside seen_from <= entry < seen_to show nothing
+    i32 pad[2];
     float4 silhouette;          // base, strength and exponent; and the factor before all ramps
     float4 ramps[GRADIENT_RAMPS]; // start, 1 / width, in ranges of the table per mm; rise of the factor
 };
 
-SHARED_ASSERT(sizeof(struct part) == 464, part_size);
+SHARED_ASSERT(sizeof(struct part) == 480, part_size);
 
 struct world {
     struct camera camera, second; // with EYES_ONE, the second is not looked at
@@ -139,7 +141,7 @@ struct world {
 };
 
 SHARED_ASSERT(sizeof(struct world) ==
-                  496 + 48 * LAMP_MAX + (64 + 464) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
+                  496 + 48 * LAMP_MAX + (64 + 480) * WORLD_PART_MAX + 16 * WORLD_ROW_MAX,
               world_size);
 
 #endif

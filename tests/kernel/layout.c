@@ -37,6 +37,8 @@ static const struct {
     AT(part, table_bias),
     AT(part, table_last),
     AT(part, table),
+    AT(part, seen_from),
+    AT(part, seen_to),
     AT(part, offset),
     AT(part, brick_row),
     AT(part, brick_slice),

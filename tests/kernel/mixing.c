@@ -100,8 +100,7 @@ static void test_long_volume(void **state) {
     (void)state;
     const int length = BRICK_SLICES_MAX + 200, seen = BRICK_SLICES_MAX - 5;
     struct pel_scene *scene = scene_create(16, 12);
-    struct pel_volume *volume =
-        scene_volume_waves((int[]){6, 7, length}, PEL_VOXEL_U8, 5, 40);
+    struct pel_volume *volume = scene_volume_waves((int[]){6, 7, length}, PEL_VOXEL_U8, 5, 40);
     scene_place(volume, (double[]){1, 1, 1}, (double[]){0, 0.5, 0, 0.5},
                 (double[]){0.5 * length - seen, 0, 0}, false);
     scene_add(scene, volume, scene_transfer_gentle((double[]){0, 255}, 0.3, 7));

@@ -2,6 +2,8 @@
 // edited, hidden and shown again in between.
 #include "world/memo.h"
 
+#include <math.h>
+
 #include "support/scenes.h"
 #include "support/test.h"
 #include "world/world.h"
@@ -66,6 +68,10 @@ static void test_frames(void **state) {
         build(&fresh, scene, &none);
         assert_same(world.tables, fresh.tables);
         assert_same(world.visible, fresh.visible);
+        for (int p = 0; p < fresh.bytes.part_count; p++) {
+            assert_true(world.bytes.parts[p].seen_from == fresh.bytes.parts[p].seen_from);
+            assert_true(world.bytes.parts[p].seen_to == fresh.bytes.parts[p].seen_to);
+        }
         pel_memo_finish(&none);
         // Only what is of another version has to be looked at.
         sent += world.tables->version != version;
@@ -78,7 +84,53 @@ static void test_frames(void **state) {
     pel_scene_destroy(scene);
 }
 
+static float strength_of(const struct pel_world *world, const struct part *part, int entry) {
+    float strength;
+    memcpy(&strength, &world->tables->words[part->table + PEL_STRENGTH_WORDS * (size_t)entry],
+           sizeof strength);
+    return strength;
+}
+
+// No entry outside the range that a part is said to show has a strength, and its ends have, but for
+// the entry more that interpolation may need before it.
+static void test_seen(void **state) {
+    (void)state;
+    const double opacities[][5] = {
+        {0, 0, 0.5, 0, 0}, {0, 0, 0, 0, 0}, {0.5, 0, 0, 0, 0}, {0, 0, 0, 0.1, 0.5},
+        {0, 0, 0, 0, 0.5}, {1, 0, 0, 0, 1}, {0, 1, 0, 1, 0},   {0.1, 0.1, 0.1, 0.1, 0.1},
+    };
+    for (size_t n = 0; n < sizeof opacities / sizeof *opacities; n++) {
+        double points[5][5];
+        for (int i = 0; i < 5; i++)
+            memcpy(points[i], (double[]){20 + 50 * i, 1, 1, 1, opacities[n][i]}, sizeof points[i]);
+        struct pel_scene *scene = scene_create(4, 3);
+        scene_add(scene, scene_volume_waves((int[]){4, 4, 4}, PEL_VOXEL_U8, n, 3),
+                  scene_transfer((const double(*)[5])points, 5));
+        struct pel_memo memo = {0};
+        static struct pel_world world;
+        build(&world, scene, &memo);
+        const struct part *part = &world.bytes.parts[0];
+        int last = (int)part->table_last;
+        int from = isinf(part->seen_from) ? 0 : (int)part->seen_from + 1;
+        int to = isinf(part->seen_to) ? last + 1 : (int)part->seen_to;
+        bool any = false;
+        for (int entry = 0; entry <= last; entry++) {
+            bool shows = strength_of(&world, part, entry) > 0;
+            any |= shows;
+            assert_true(!shows || (from <= entry && entry < to));
+        }
+        assert_true(any == (from < to));
+        assert_true(!any ||
+                    (strength_of(&world, part, from) > 0 && strength_of(&world, part, to - 1) > 0));
+        // What lies outside the table is shown as its end.
+        assert_true(!(strength_of(&world, part, 0) > 0) || part->seen_from == -INFINITY);
+        assert_true(!(strength_of(&world, part, last) > 0) || part->seen_to == INFINITY);
+        pel_memo_finish(&memo);
+        pel_scene_destroy(scene);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_frames)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_frames), cmocka_unit_test(test_seen)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
