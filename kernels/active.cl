@@ -54,9 +54,9 @@ INLINE void join_part(__constant struct world *world, __global const uchar *cell
     active->list[place] = c;
 }
 
-// The last sample of the longest run (stride.cl) that sample i may be in: a run asks all parts
-// there.
-#define REACH(i) (ADAPTIVE ? (i) | 3 : (i))
+// The last sample that is looked at with sample i: of the longest run (stride.cl) that it may be in,
+// which asks all parts there, or of those at once.
+#define REACH(i) (ADAPTIVE ? (i) | 3 : (i) + (AT_ONCE - 1))
 
 // Adds the parts that some ray has come to at its sample i. It is rarely called, and inside the ray
 // loop it would take registers from samples (4 to 9 % of a frame).

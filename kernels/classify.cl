@@ -75,17 +75,32 @@ INLINE real table_place(__constant struct part *part, real raw, mask *present) {
 #endif
 }
 
-// The entry at a place of the part's table.
-INLINE struct entry entry_at(TABLE_SPACE const uint *table, __constant struct part *part, real x) {
-    x = AT_LEAST(x, (real)(0.0f));
-    x = AT_MOST(x, (real)(part->table_last + table_shift(part)));
-    const integer number = TO_INTEGER(x);
-    const struct indices at = spread_indices(number);
+// Where in the part's table a lane's entry is.
+struct address {
+    integer number; // by keep_indices
+#if TABLE_LINEAR
+    real weight; // of the entry above
+#endif
+};
+
+INLINE void find_address(__constant struct part *part, real place, struct address *address) {
+    place = AT_LEAST(place, (real)(0.0f));
+    place = AT_MOST(place, (real)(part->table_last + table_shift(part)));
+    const integer number = TO_INTEGER(place);
+#if TABLE_LINEAR
+    address->weight = part->table_nearest ? (real)(0.0f) : place - TO_REAL(number);
+#endif
+    keep_indices(&address->number, number);
+}
+
+INLINE struct entry entry_at(TABLE_SPACE const uint *table, __constant struct part *part,
+                             const struct address *address) {
+    const struct indices at = read_indices(&address->number);
     struct entry entry;
     table += part->table;
     load_entries(table, &at, &entry.strength, &entry.colour);
 #if TABLE_LINEAR
-    entry.weight = part->table_nearest ? (real)(0.0f) : x - TO_REAL(number);
+    entry.weight = address->weight;
     real above;
     load_entries(table + 2, &at, &above, &entry.colour_above);
     entry.strength = mix_lanes(entry.strength, above, entry.weight);
@@ -96,7 +111,9 @@ INLINE struct entry entry_at(TABLE_SPACE const uint *table, __constant struct pa
 // The entry of a value. Clears the lanes of *present whose value is absent.
 INLINE struct entry find_entry(TABLE_SPACE const uint *table, __constant struct part *part, real raw,
                                mask *present) {
-    return entry_at(table, part, table_place(part, raw, present));
+    struct address address;
+    find_address(part, table_place(part, raw, present), &address);
+    return entry_at(table, part, &address);
 }
 
 #if MODELS & MODELS_PREINTEGRATED

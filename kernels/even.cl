@@ -1,6 +1,6 @@
 // even.cl - what the ray loop makes of stride.cl where samples are evenly spaced: every run is one
 // sample.
-// Included by render.cl.
+// Included by march.cl.
 #ifndef EVEN_CL
 #define EVEN_CL
 

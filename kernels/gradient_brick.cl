@@ -183,7 +183,9 @@ INLINE void look_around(MEMORY_PARAMETERS, __constant struct part *part, real x,
                         struct surroundings *around) {
     const integer ix = TO_INTEGER(x), iy = TO_INTEGER(y), iz = TO_INTEGER(z);
     const struct cell cell = {.x = x - TO_REAL(ix), .y = y - TO_REAL(iy), .z = z - TO_REAL(iz)};
-    const struct indices at = spread_indices(voxel_index(part, ix, iy, iz PAGES_ARGUMENT));
+    integer offset;
+    keep_indices(&offset, voxel_index(part, ix, iy, iz PAGES_ARGUMENT));
+    const struct indices at = read_indices(&offset);
     __global const ushort *voxels =
         (__global const ushort *)part_buffer(MEMORY_ARGUMENTS, part) + part->offset;
     struct slice before, first, second, behind;

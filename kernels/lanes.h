@@ -137,20 +137,26 @@ INLINE bool any_lane(mask m) {
 }
 
 // Indices of each lane as plain numbers. They go through memory, because two dozen instructions
-// would take them out of a vector register one by one.
+// would take them out of a vector register one by one. Kept there some time before they are read,
+// they need not be waited for.
 struct indices {
     uint of[LANES];
 };
 
-INLINE struct indices spread_indices(integer v) {
 #if LANES == 1
-    const struct indices at = {{(uint)v}};
+#define KEPT
 #else
-#define LANE_INDEX(lane) memory[lane]
-    volatile integer kept = v;
-    const volatile uint *memory = (const volatile uint *)&kept;
-    const struct indices at = {{LANE_NUMBERS(LANE_INDEX)}};
+#define KEPT volatile
 #endif
+
+INLINE void keep_indices(integer *memory, integer v) {
+    *(KEPT integer *)memory = v;
+}
+
+INLINE struct indices read_indices(const integer *memory) {
+#define LANE_INDEX(lane) lanes[lane]
+    const KEPT uint *lanes = (const KEPT uint *)memory;
+    const struct indices at = {{LANE_NUMBERS(LANE_INDEX)}};
     return at;
 }
 

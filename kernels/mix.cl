@@ -11,9 +11,6 @@
 #include "pixel.cl"
 #include "span.cl"
 
-// 1: strengths are optical depths of a step, 0: opacities. With one part there is nothing to mix.
-#define STRENGTH_DEPTH (CAPACITY > 1 && MIXING != MIXING_OVER && MIXING != MIXING_ORDERED)
-
 // 1: one part hides all others, 0: colours are the mean of all, weighted by depth.
 #define MIXING_WINNER (MIXING == MIXING_MAX || MIXING == MIXING_PRIORITY)
 
@@ -62,7 +59,14 @@ INLINE void mix_compete(struct mixture *mixture, real rank, real r, real g, real
 INLINE void mix_add(struct mixture *mixture, struct light *light, __constant struct part *part,
                     real r, real g, real b, real strength) {
 #if !STRENGTH_DEPTH
-    light_add(light, r, g, b, strength);
+    if (AT_ONCE == 1) {
+        light_add(light, r, g, b, strength);
+    } else { // the only part's, whose turn comes in mix_end
+        mixture->r = r;
+        mixture->g = g;
+        mixture->b = b;
+        mixture->depth = strength;
+    }
 #elif MIXING_WINNER
     mix_compete(mixture, MIXING == MIXING_MAX ? strength : (real)(part->rank), r, g, b, strength);
 #else
@@ -108,6 +112,9 @@ INLINE void mix_end(__constant struct world *world, const struct mixture *mixtur
 #endif
     light_add(light, mixture->r * share, mixture->g * share, mixture->b * share,
               1.0f - exp(-mix_depth(world, mixture)));
+#else
+    if (AT_ONCE > 1)
+        light_add(light, mixture->r, mixture->g, mixture->b, mixture->depth);
 #endif
 }
 

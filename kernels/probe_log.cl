@@ -1,5 +1,5 @@
 // probe_log.cl - what the ray loop tells a probe of each sample. Only where LANES is 1.
-// Included by render.cl.
+// Included by march.cl.
 #ifndef PROBE_LOG_CL
 #define PROBE_LOG_CL
 

@@ -33,7 +33,7 @@
 
 // The eight voxels around a position: the index of the first, and the weights along the axes.
 struct cell {
-    integer offset;
+    integer offset; // by keep_indices
     real x, y, z;
 };
 
@@ -104,7 +104,7 @@ INLINE real face_u8(__global const ushort *row, const struct indices *at, const 
 }
 
 INLINE real linear_u8(__global const ushort *voxels, const struct cell *cell) {
-    const struct indices at = spread_indices(cell->offset);
+    const struct indices at = read_indices(&cell->offset);
     return mix_lanes(face_u8(voxels, &at, cell), face_u8(voxels + BRICK_SLICE, &at, cell), cell->z);
 }
 
@@ -121,7 +121,7 @@ INLINE real row_u16(__global const ushort *row, const struct indices *at, real x
 }
 
 INLINE real linear_u16(__global const ushort *voxels, const struct cell *cell) {
-    const struct indices at = spread_indices(cell->offset);
+    const struct indices at = read_indices(&cell->offset);
     __global const ushort *next = voxels + BRICK_SLICE;
     return mix_lanes(mix_lanes(row_u16(voxels, &at, cell->x),
                                row_u16(voxels + BRICK_ROW, &at, cell->x), cell->y),
@@ -197,42 +197,54 @@ INLINE __global const uchar *part_buffer(MEMORY_PARAMETERS, __constant struct pa
                                : buffer3;
 }
 
-INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
-                                real x, real y, real z) {
+INLINE void find_cell(__constant struct part *part, bool nearest, real x, real y, real z,
+                      struct cell *cell PAGES_PARAMETER) {
     // Positions are positive, so truncation is floor.
     const integer ix = TO_INTEGER(nearest ? x + 0.5f : x), iy = TO_INTEGER(nearest ? y + 0.5f : y),
                   iz = TO_INTEGER(nearest ? z + 0.5f : z);
-    const struct cell cell = {.offset = voxel_index(part, ix, iy, iz PAGES_ARGUMENT),
-                              .x = x - TO_REAL(ix),
-                              .y = y - TO_REAL(iy),
-                              .z = z - TO_REAL(iz)};
+    cell->x = x - TO_REAL(ix);
+    cell->y = y - TO_REAL(iy);
+    cell->z = z - TO_REAL(iz);
+    keep_indices(&cell->offset, voxel_index(part, ix, iy, iz PAGES_ARGUMENT));
+}
+
+// What is sampled there.
+INLINE struct sample fetch_cell(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
+                                const struct cell *cell) {
     __global const uchar *buffer = part_buffer(MEMORY_ARGUMENTS, part);
     struct sample s;
     s.raw = (real)(0.0f);
 #if VOXELS & VOXELS_U8
     if (IS_CLASS(part, VOXELS_U8)) {
         __global const ushort *voxels = (__global const ushort *)buffer + part->offset;
-        s.raw = nearest ? nearest_u8(voxels, cell.offset) : linear_u8(voxels, &cell);
+        s.raw = nearest ? nearest_u8(voxels, cell->offset) : linear_u8(voxels, cell);
     }
 #endif
 #if VOXELS & VOXELS_U16
     if (IS_CLASS(part, VOXELS_U16)) {
         __global const ushort *voxels = (__global const ushort *)buffer + part->offset;
-        s.raw = nearest ? nearest_u16(voxels, cell.offset) : linear_u16(voxels, &cell);
+        s.raw = nearest ? nearest_u16(voxels, cell->offset) : linear_u16(voxels, cell);
     }
 #endif
 #if VOXELS & VOXELS_F32
     if (IS_CLASS(part, VOXELS_F32)) {
         __global const float *voxels = (__global const float *)buffer + part->offset;
-        s.raw = nearest ? nearest_f32(voxels, cell.offset) : linear_f32(voxels, &cell);
+        s.raw = nearest ? nearest_f32(voxels, cell->offset) : linear_f32(voxels, cell);
     }
 #endif
 #if VOXELS & VOXELS_RGBA
     s.r = s.g = s.b = (real)(0.0f);
     if (IS_CLASS(part, VOXELS_RGBA))
-        sample_rgba(&s, (__global const int *)buffer + part->offset, &cell, nearest);
+        sample_rgba(&s, (__global const int *)buffer + part->offset, cell, nearest);
 #endif
     return s;
+}
+
+INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
+                                real x, real y, real z) {
+    struct cell cell;
+    find_cell(part, nearest, x, y, z, &cell PAGES_ARGUMENT);
+    return fetch_cell(MEMORY_ARGUMENTS, part, nearest, &cell);
 }
 
 #endif

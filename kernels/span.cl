@@ -50,6 +50,9 @@
 #define MODELS 0 // what else than absorption, gathered front to back, occurs: MODELS_*
 #endif
 
+// 1: strengths are optical depths of a step, 0: opacities. With one part there is nothing to mix.
+#define STRENGTH_DEPTH (CAPACITY > 1 && MIXING != MIXING_OVER && MIXING != MIXING_ORDERED)
+
 // With room for one part only, the compiler must see that there is only one, or it keeps the cursor
 // in memory instead of registers.
 #define LISTED(list, index) (CAPACITY == 1 ? 0 : (list)[index])
@@ -68,6 +71,18 @@
 
 #if JOINS
 #include "ahead.cl"
+#endif
+
+// How many samples of a ray are looked at together. A packet's sample is a chain of instructions, of
+// which each waits for the one before, and one is as long as a processor can look ahead. Of some
+// that do not wait for each other it goes on with others meanwhile: one volume takes three quarters
+// of the time. Samples go one at a time where they ask for the one before, or are layers by
+// themselves; and where more work than a look-up is done for each.
+#if LANES == 1 || READER != READER_BUFFER || MODELS || ADAPTIVE || SHADING || LIVE ||              \
+    (FILTERS & FILTERS_CUBIC) || MIXING == MIXING_ORDERED || (CAPACITY > 1 && !STRENGTH_DEPTH)
+#define AT_ONCE 1
+#else
+#define AT_ONCE (CAPACITY == 1 ? 3 : 2)
 #endif
 
 // The parts that some lane of the packet crosses, with their cursors; with LATE_PARTS those that it

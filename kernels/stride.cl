@@ -6,7 +6,7 @@
 // first and the last sample are asked, and none begins or ends within a run. So the runs of a ray
 // are the same whatever is skipped and whichever rays share its packet. See docs/picture.md,
 // "Adaptive steps".
-// Included by span.cl.
+// Included by march.cl.
 #ifndef STRIDE_CL
 #define STRIDE_CL
 

@@ -10,8 +10,8 @@
 // Shades the straight colour of what sample i at (x, y, z) shows, as shade does, in the lanes where
 // it is visible, and scales its strength.
 INLINE void style(FRAME_PARAMETERS, __constant struct part *part, MEMORY_PARAMETERS,
-                  const struct ray *ray, real t_first, real i, real x, real y, real z,
-                  struct sight *sight, real *r, real *g, real *b) {
+                  const struct ray *ray, real t_first, real i, struct sight *sight, real *r, real *g,
+                  real *b) {
     const mask where = sight->visible;
     real difference[3], slope;
 #if BRICK_GRADIENT
@@ -20,8 +20,8 @@ INLINE void style(FRAME_PARAMETERS, __constant struct part *part, MEMORY_PARAMET
             difference[axis] = sight->around.difference[axis];
     } else
 #endif
-        find_differences(MEMORY_ARGUMENTS, part, CHOOSE((real)(0.0f), sight->sample.raw, where), x,
-                         y, z, difference);
+        find_differences(MEMORY_ARGUMENTS, part, CHOOSE((real)(0.0f), sight->sample.raw, where),
+                         sight->x, sight->y, sight->z, difference);
     const struct vector normal = make_normal(part, difference, &slope);
 #if STYLE
     if (part->styled)
