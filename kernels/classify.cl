@@ -93,19 +93,29 @@ INLINE void find_address(__constant struct part *part, real place, struct addres
     keep_indices(&address->number, number);
 }
 
-INLINE struct entry entry_at(TABLE_SPACE const uint *table, __constant struct part *part,
-                             const struct address *address) {
+// The entry there. Rusticl loses what a loop assigns to parts of an array as whole structures (Mesa
+// 26), so it is filled in.
+INLINE void load_entry(TABLE_SPACE const uint *table, __constant struct part *part,
+                       const struct address *address, struct entry *entry) {
     const struct indices at = read_indices(&address->number);
-    struct entry entry;
     table += part->table;
-    load_entries(table, &at, &entry.strength, &entry.colour);
+    load_entries(table, &at, &entry->strength, &entry->colour);
 #if TABLE_LINEAR
-    entry.weight = address->weight;
+    entry->weight = address->weight;
     real above;
-    load_entries(table + 2, &at, &above, &entry.colour_above);
-    entry.strength = mix_lanes(entry.strength, above, entry.weight);
+    load_entries(table + 2, &at, &above, &entry->colour_above);
+    entry->strength = mix_lanes(entry->strength, above, entry->weight);
 #endif
-    return entry;
+}
+
+// One that shows nothing. Without, PoCL keeps the entry of the sample before in memory.
+INLINE void clear_entry(struct entry *entry) {
+    entry->strength = (real)(0.0f);
+    entry->colour = (integer)(0);
+#if TABLE_LINEAR
+    entry->colour_above = (integer)(0);
+    entry->weight = (real)(0.0f);
+#endif
 }
 
 // The entry of a value. Clears the lanes of *present whose value is absent.
@@ -113,7 +123,9 @@ INLINE struct entry find_entry(TABLE_SPACE const uint *table, __constant struct 
                                mask *present) {
     struct address address;
     find_address(part, table_place(part, raw, present), &address);
-    return entry_at(table, part, &address);
+    struct entry entry;
+    load_entry(table, part, &address, &entry);
+    return entry;
 }
 
 #if MODELS & MODELS_PREINTEGRATED

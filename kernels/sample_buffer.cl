@@ -208,43 +208,42 @@ INLINE void find_cell(__constant struct part *part, bool nearest, real x, real y
     keep_indices(&cell->offset, voxel_index(part, ix, iy, iz PAGES_ARGUMENT));
 }
 
-// What is sampled there.
-INLINE struct sample fetch_cell(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
-                                const struct cell *cell) {
+INLINE void fetch_cell(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
+                       const struct cell *cell, struct sample *s) {
     __global const uchar *buffer = part_buffer(MEMORY_ARGUMENTS, part);
-    struct sample s;
-    s.raw = (real)(0.0f);
+    s->raw = (real)(0.0f);
 #if VOXELS & VOXELS_U8
     if (IS_CLASS(part, VOXELS_U8)) {
         __global const ushort *voxels = (__global const ushort *)buffer + part->offset;
-        s.raw = nearest ? nearest_u8(voxels, cell->offset) : linear_u8(voxels, cell);
+        s->raw = nearest ? nearest_u8(voxels, cell->offset) : linear_u8(voxels, cell);
     }
 #endif
 #if VOXELS & VOXELS_U16
     if (IS_CLASS(part, VOXELS_U16)) {
         __global const ushort *voxels = (__global const ushort *)buffer + part->offset;
-        s.raw = nearest ? nearest_u16(voxels, cell->offset) : linear_u16(voxels, cell);
+        s->raw = nearest ? nearest_u16(voxels, cell->offset) : linear_u16(voxels, cell);
     }
 #endif
 #if VOXELS & VOXELS_F32
     if (IS_CLASS(part, VOXELS_F32)) {
         __global const float *voxels = (__global const float *)buffer + part->offset;
-        s.raw = nearest ? nearest_f32(voxels, cell->offset) : linear_f32(voxels, cell);
+        s->raw = nearest ? nearest_f32(voxels, cell->offset) : linear_f32(voxels, cell);
     }
 #endif
 #if VOXELS & VOXELS_RGBA
-    s.r = s.g = s.b = (real)(0.0f);
+    s->r = s->g = s->b = (real)(0.0f);
     if (IS_CLASS(part, VOXELS_RGBA))
-        sample_rgba(&s, (__global const int *)buffer + part->offset, cell, nearest);
+        sample_rgba(s, (__global const int *)buffer + part->offset, cell, nearest);
 #endif
-    return s;
 }
 
 INLINE struct sample fetch_part(MEMORY_PARAMETERS, __constant struct part *part, bool nearest,
                                 real x, real y, real z) {
     struct cell cell;
     find_cell(part, nearest, x, y, z, &cell PAGES_ARGUMENT);
-    return fetch_cell(MEMORY_ARGUMENTS, part, nearest, &cell);
+    struct sample sample;
+    fetch_cell(MEMORY_ARGUMENTS, part, nearest, &cell, &sample);
+    return sample;
 }
 
 #endif

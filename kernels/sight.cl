@@ -44,7 +44,7 @@ INLINE void take_samples(MEMORY_PARAMETERS, __constant struct part *part, struct
         find_cell(part, nearest, sights[k].x, sights[k].y, sights[k].z, &cells[k] PAGES_ARGUMENT);
 #pragma unroll
     for (int k = 0; k < AT_ONCE; k++)
-        sights[k].sample = fetch_cell(MEMORY_ARGUMENTS, part, nearest, &cells[k]);
+        fetch_cell(MEMORY_ARGUMENTS, part, nearest, &cells[k], &sights[k].sample);
 #endif
 }
 
@@ -60,8 +60,7 @@ INLINE mask look_up(TABLE_SPACE const uint *table, __constant struct part *part,
         places[k] = table_place(part, sight->sample.raw, &sight->present);
         sight->visible =
             sight->present & MASK(places[k] >= part->seen_from) & MASK(places[k] < part->seen_to);
-        // Without, compilers keep the one from the turn before in memory.
-        sight->entry = (struct entry){.strength = (real)(0.0f)};
+        clear_entry(&sight->entry);
         seen |= sight->visible;
     }
     if (!any_lane(seen))
@@ -74,7 +73,7 @@ INLINE mask look_up(TABLE_SPACE const uint *table, __constant struct part *part,
 #pragma unroll
     for (int k = 0; k < AT_ONCE; k++) {
         struct sight *sight = &sights[k];
-        sight->entry = entry_at(table, part, &addresses[k]);
+        load_entry(table, part, &addresses[k], &sight->entry);
         sight->visible &= MASK(sight->entry.strength > 0.0f);
         seen |= sight->visible;
     }
