@@ -49,6 +49,36 @@ INLINE mask aim(__constant struct world *world, MEMORY_PARAMETERS, const struct 
     return reached;
 }
 
+// Adds to each mixture what the sight of its sample shows of a part, shaded where it is to be.
+INLINE void mix_sights(__constant struct world *world, TABLE_SPACE const uint *table,
+                       __global const uchar *cells, MEMORY_PARAMETERS, struct crossing *crossing,
+                       int c, __constant struct part *part, integer length, struct sight *sights,
+                       struct mixture *mixtures, struct light *layer) {
+#pragma unroll
+    for (int k = 0; k < AT_ONCE; k++) {
+        struct sight *sight = &sights[k];
+        real r, g, b;
+        entry_colour(&sight->entry, &r, &g, &b);
+#if VOXELS & VOXELS_RGBA
+        if (IS_CLASS(part, VOXELS_RGBA)) {
+            r = sight->sample.r;
+            g = sight->sample.g;
+            b = sight->sample.b;
+        }
+#endif
+#if SHADING
+        if (HAS_NORMALS(part))
+            style(FRAME_ARGUMENTS, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
+                  SAMPLE_NUMBER(crossing, c, sight->t), sight, &r, &g, &b);
+#endif
+#if PROBE
+        log_colour(crossing, r, g, b);
+#endif
+        const real strength = RUN_STRENGTH(sight->entry.strength, length);
+        mix_add(&mixtures[k], layer, part, r, g, b, CHOOSE((real)(0.0f), strength, sight->visible));
+    }
+}
+
 // Follows the rays and returns the light they gather. Adds the samples taken to *samples.
 INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE const uint *table,
                                 __global const uchar *cells, MEMORY_PARAMETERS,
@@ -159,29 +189,8 @@ INLINE struct light follow_rays(__constant struct world *world, TABLE_SPACE cons
             }
             seen = true;
             expected |= 1UL << c;
-#pragma unroll
-            for (int k = 0; k < AT_ONCE; k++) {
-                struct sight *sight = &sights[k];
-                real r, g, b;
-                entry_colour(&sight->entry, &r, &g, &b);
-#if VOXELS & VOXELS_RGBA
-                if (IS_CLASS(part, VOXELS_RGBA)) {
-                    r = sight->sample.r;
-                    g = sight->sample.g;
-                    b = sight->sample.b;
-                }
-#endif
-#if SHADING
-                if (HAS_NORMALS(part))
-                    style(FRAME_ARGUMENTS, part, MEMORY_ARGUMENTS, &crossing->ray, crossing->t_first,
-                          SAMPLE_NUMBER(crossing, c, sight->t), sight, &r, &g, &b);
-#endif
-#if PROBE
-                log_colour(crossing, r, g, b);
-#endif
-                mix_add(&mixtures[k], layer, part, r, g, b,
-                        CHOOSE(zero, RUN_STRENGTH(sight->entry.strength, length), sight->visible));
-            }
+            mix_sights(world, table, cells, MEMORY_ARGUMENTS, crossing, c, part, length, sights,
+                       mixtures, layer);
         }
 
 #if MIXING == MIXING_ORDERED
